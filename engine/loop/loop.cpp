@@ -1,0 +1,70 @@
+#include "engine/loop/loop.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/words.h"
+
+namespace portrait {
+namespace {
+
+template <typename Names>
+std::optional<std::size_t> index_of(const Names& names, std::string_view name) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return i;
+  return std::nullopt;
+}
+
+std::string must(std::string_view name, std::string_view rule, double value) {
+  return fmt::format("{} must be {} (it is {})", name, rule, number_text(value));
+}
+
+bool finite_above_zero(double x) { return std::isfinite(x) && x > 0; }
+
+std::optional<std::string> why_controller_invalid(const Setting& s) {
+  if (!finite_above_zero(s.kappa)) return must("kappa", "finite and above 0", s.kappa);
+  if (!(s.tau_i > 0)) return must("tau_i", "above 0, or inf for no integral action", s.tau_i);
+  if (!std::isfinite(s.delta) || s.delta < 0) return must("delta", "finite and not below 0", s.delta);
+  return std::nullopt;
+}
+
+/// F must be proper: a setpoint step through an improper prefilter is an impulse.
+std::optional<std::string> why_prefilter_invalid(Prefilter prefilter, const Setting& s) {
+  if (!std::isfinite(s.b)) return must("b", "finite", s.b);
+  if (!std::isfinite(s.c)) return must("c", "finite", s.c);
+  const bool derivative = s.delta > 0;
+  if (prefilter == Prefilter::none && (s.b != 0 || s.c != 0))
+    return "b and c belong to a prefilter: with prefilter = \"none\" both must be 0";
+  if (prefilter == Prefilter::pi && s.c != 0) return must("c", "0 with prefilter = \"pi\", whose numerator is 1 + b tau_i s", s.c);
+  if (prefilter != Prefilter::full) return std::nullopt;
+  if (s.c != 0 && !(derivative && has_integral_action(s)))
+    return must("c", "0 without both integral and derivative action, or the prefilter is improper", s.c);
+  if (s.b != 0 && !derivative && !has_integral_action(s))
+    return must("b", "0 without integral and derivative action, or the prefilter is improper", s.b);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Plant> plant_named(std::string_view name) {
+  if (const auto i = index_of(kPlantNames, name)) return static_cast<Plant>(*i);
+  return std::nullopt;
+}
+
+std::optional<Prefilter> prefilter_named(std::string_view name) {
+  if (const auto i = index_of(kPrefilterNames, name)) return static_cast<Prefilter>(*i);
+  return std::nullopt;
+}
+
+std::optional<std::string> why_invalid(const Loop& loop) {
+  const Setting& s = loop.setting;
+  if (loop.family.n < 0 || loop.family.n > kMaxFilterOrder)
+    return fmt::format("n must be 0 .. {} (it is {})", kMaxFilterOrder, loop.family.n);
+  if (auto reason = why_controller_invalid(s)) return reason;
+  if (loop.family.plant == Plant::fotd && !finite_above_zero(s.tau_1)) return must("tau_1", "finite and above 0", s.tau_1);
+  if (loop.family.n >= 1 && !finite_above_zero(s.tau_f)) return must("tau_f", "finite and above 0", s.tau_f);
+  return why_prefilter_invalid(loop.family.prefilter, s);
+}
+
+}  // namespace portrait

@@ -1,0 +1,55 @@
+#include "engine/measures/catalogue.h"
+
+#include <limits>
+
+namespace portrait {
+namespace {
+
+constexpr std::string_view kIae = "integral of |w - y| from 0 to the horizon, w the unfiltered setpoint";
+constexpr std::string_view kTv = "sum of |increments| from 0- to the horizon, the jump at 0+ included";
+constexpr std::string_view kTv0 = "total variation less |x(inf) - x(0-)|: deviation from a monotonic response";
+constexpr std::string_view kTv1 = "total variation less that of the best shape with at most one extreme";
+constexpr std::string_view kTv2 =
+    "total variation less that of the best shape with at most two extremes, alternating about x(inf)";
+constexpr std::string_view kMax = "largest |x(t)| from 0 to the horizon";
+
+constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
+    {"IAE_w", "integral of absolute error, setpoint step", kIae, Unit::output_time, 'w'},
+    {"IAE_d", "integral of absolute error, disturbance step", kIae, Unit::output_time, 'd'},
+    {"TV_yw", "total variation of y, setpoint step", kTv, Unit::output, 'w'},
+    {"TV0_yw", "deviation of y from monotonicity, setpoint step", kTv0, Unit::output, 'w'},
+    {"TV1_yw", "deviation of y from a one-pulse shape, setpoint step", kTv1, Unit::output, 'w'},
+    {"TV2_yw", "deviation of y from a two-pulse shape, setpoint step", kTv2, Unit::output, 'w'},
+    {"TV_uw", "total variation of u, setpoint step", kTv, Unit::input, 'w'},
+    {"TV0_uw", "deviation of u from monotonicity, setpoint step", kTv0, Unit::input, 'w'},
+    {"TV1_uw", "deviation of u from a one-pulse shape, setpoint step", kTv1, Unit::input, 'w'},
+    {"TV2_uw", "deviation of u from a two-pulse shape, setpoint step", kTv2, Unit::input, 'w'},
+    {"TV_yd", "total variation of y, disturbance step", kTv, Unit::output, 'd'},
+    {"TV0_yd", "deviation of y from monotonicity, disturbance step", kTv0, Unit::output, 'd'},
+    {"TV1_yd", "deviation of y from a one-pulse shape, disturbance step", kTv1, Unit::output, 'd'},
+    {"TV2_yd", "deviation of y from a two-pulse shape, disturbance step", kTv2, Unit::output, 'd'},
+    {"TV_ud", "total variation of u, disturbance step", kTv, Unit::input, 'd'},
+    {"TV0_ud", "deviation of u from monotonicity, disturbance step", kTv0, Unit::input, 'd'},
+    {"TV1_ud", "deviation of u from a one-pulse shape, disturbance step", kTv1, Unit::input, 'd'},
+    {"TV2_ud", "deviation of u from a two-pulse shape, disturbance step", kTv2, Unit::input, 'd'},
+    {"y_max_w", "largest |y|, setpoint step; overshoot is y_max_w - 1", kMax, Unit::output, 'w'},
+    {"u_max_w", "largest |u|, setpoint step", kMax, Unit::input, 'w'},
+    {"y_max_d", "largest |y|, disturbance step", kMax, Unit::output, 'd'},
+    {"u_max_d", "largest |u|, disturbance step", kMax, Unit::input, 'd'},
+    {"Ms", "peak of the sensitivity", "sup over omega > 0 of |1/(1 + L(j omega))|", Unit::one, '-'},
+    {"Mt", "peak of the complementary sensitivity", "sup over omega > 0 of |L/(1 + L)|", Unit::one, '-'},
+}};
+
+}  // namespace
+
+const MeasureInfo& info(Measure measure) { return kMeasures[static_cast<std::size_t>(measure)]; }
+
+std::optional<Measure> measure_named(std::string_view name) {
+  for (std::size_t i = 0; i < kMeasureCount; ++i)
+    if (kMeasures[i].name == name) return static_cast<Measure>(i);
+  return std::nullopt;
+}
+
+MeasureRow::MeasureRow() { values_.fill(std::numeric_limits<double>::quiet_NaN()); }
+
+}  // namespace portrait
