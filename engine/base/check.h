@@ -1,5 +1,5 @@
-/// Our own mistakes. A check that fails is a bug in Portrait, never bad input: it throws, so that a sweep can name
-/// the setting at which it happened, and it prints both values.
+/// Our own mistakes. A check that fails is a bug in Portrait, never bad input: it throws, so that a sweep can
+/// name the setting at which it happened, and it prints both values.
 ///
 ///     PORTRAIT_CHECK(condition)      always on
 ///     PORTRAIT_CHECK_EQ(a, b)        always on, prints a and b
@@ -19,7 +19,8 @@ class BrokenPromise : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] inline void check_failed(const char* file, int line, const char* text, const std::string& values) {
+[[noreturn]] inline void check_failed(const char* file, int line, const char* text,
+                                      const std::string& values) {
   throw BrokenPromise(fmt::format("{}:{}: check failed: {}{}", file, line, text, values));
 }
 

@@ -1,8 +1,8 @@
 #include "engine/base/words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -35,7 +35,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last.back();
 }
 
-std::optional<std::string_view> nearest_word(std::string_view word, const std::vector<std::string_view>& known) {
+std::optional<std::string_view> nearest_word(std::string_view word,
+                                             const std::vector<std::string_view>& known) {
   const std::size_t furthest = std::max<std::size_t>(1, word.size() / 3);
   std::optional<std::string_view> nearest;
   std::size_t smallest = furthest + 1;
@@ -53,7 +54,9 @@ std::string suggestion(std::string_view word, const std::vector<std::string_view
   return fmt::format(" (known: {})", joined(known));
 }
 
-std::string joined(const std::vector<std::string_view>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+std::string joined(const std::vector<std::string_view>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
 
 std::optional<double> parse_number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);

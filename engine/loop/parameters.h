@@ -27,7 +27,8 @@ std::optional<Parameter> parameter_named(std::string_view name);
 /// Kc K Td^2 for dipdt, Kc K Td for ipdt, ...: what the parameter is in the quantities of a real plant.
 std::string normalisation(Parameter parameter, Plant plant);
 
-/// Whether a loop of this family has the parameter: tau_1 only fotd, tau_f only n >= 1, b and c only with a prefilter.
+/// Whether a loop of this family has the parameter: tau_1 only fotd, tau_f only n >= 1, b and c only with a
+/// prefilter.
 bool applies(Parameter parameter, const LoopFamily& family);
 
 /// The parameters of this family, in printing order, tau_d among them.

@@ -35,20 +35,25 @@ double scale(Measure measure, const RealPlant& plant) {
   const double y = m.step == 'd' ? gain : 1;
   const double u = m.step == 'd' ? 1 : 1 / gain;
   switch (m.unit) {
-    case Unit::one: return 1;
-    case Unit::output: return y;
-    case Unit::output_time: return y * plant.Td;
-    case Unit::input: return u;
+    case Unit::one:
+      return 1;
+    case Unit::output:
+      return y;
+    case Unit::output_time:
+      return y * plant.Td;
+    case Unit::input:
+      return u;
   }
   return kNaN;
 }
 
 RealController controller_for(const Loop& loop, const RealPlant& plant) {
   const Setting& s = loop.setting;
-  return {.standard = {.Kc = s.kappa / input_gain(plant), .Ti = s.tau_i * plant.Td, .TD = tau_d(s) * plant.Td},
-          .Tf = s.tau_f * plant.Td,
-          .b = s.b * unit_of_b(loop.family.prefilter, plant.Td),
-          .c = s.c * plant.Td * plant.Td};
+  return {
+      .standard = {.Kc = s.kappa / input_gain(plant), .Ti = s.tau_i * plant.Td, .TD = tau_d(s) * plant.Td},
+      .Tf = s.tau_f * plant.Td,
+      .b = s.b * unit_of_b(loop.family.prefilter, plant.Td),
+      .c = s.c * plant.Td * plant.Td};
 }
 
 Setting normalised(const RealController& controller, const RealPlant& plant, const LoopFamily& family) {
