@@ -19,8 +19,7 @@ class BrokenPromise : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] inline void check_failed(const char* file, int line, const char* text,
-                                      const std::string& values) {
+[[noreturn]] inline void check_failed(const char* file, int line, const char* text, const std::string& values) {
   throw BrokenPromise(fmt::format("{}:{}: check failed: {}{}", file, line, text, values));
 }
 

@@ -25,8 +25,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j < columns; ++j) {
       const std::size_t substituted = last[j - 1] + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
       row[j] = std::min({substituted, last[j] + 1, row[j - 1] + 1});
-      const bool swapped =
-          i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]);
+      const bool swapped = i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]);
       if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
     before_last = last;
@@ -35,8 +34,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last.back();
 }
 
-std::optional<std::string_view> nearest_word(std::string_view word,
-                                             const std::vector<std::string_view>& known) {
+std::optional<std::string_view> nearest_word(std::string_view word, const std::vector<std::string_view>& known) {
   const std::size_t furthest = std::max<std::size_t>(1, word.size() / 3);
   std::optional<std::string_view> nearest;
   std::size_t smallest = furthest + 1;
@@ -54,9 +52,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string_view
   return fmt::format(" (known: {})", joined(known));
 }
 
-std::string joined(const std::vector<std::string_view>& words) {
-  return fmt::format("{}", fmt::join(words, ", "));
-}
+std::string joined(const std::vector<std::string_view>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
 std::optional<double> parse_number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);

@@ -14,8 +14,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The known word nearest to `word`, when near enough to be a slip of the pen: at most a third of its letters
 /// (and at least one) differ. Of several equally near the first.
-std::optional<std::string_view> nearest_word(std::string_view word,
-                                             const std::vector<std::string_view>& known);
+std::optional<std::string_view> nearest_word(std::string_view word, const std::vector<std::string_view>& known);
 
 /// " (did you mean "kappa"?)", or " (known: a, b, c)" when no known word is near.
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& known);

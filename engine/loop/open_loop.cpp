@@ -31,8 +31,7 @@ OpenLoop open_loop(const Loop& loop) {
   const Setting& s = loop.setting;
   const bool integral = has_integral_action(s);
   OpenLoop open;
-  open.numerator =
-      integral ? std::array{s.kappa / s.tau_i, s.kappa, s.delta} : std::array{s.kappa, s.delta, 0.0};
+  open.numerator = integral ? std::array{s.kappa / s.tau_i, s.kappa, s.delta} : std::array{s.kappa, s.delta, 0.0};
   open.integrators = integrators(loop.family.plant) + (integral ? 1 : 0);
   if (loop.family.plant == Plant::fotd) open.lags.push_back(s.tau_1);
   open.lags.insert(open.lags.end(), static_cast<std::size_t>(loop.family.n), s.tau_f);

@@ -1,11 +1,10 @@
-/// The open loop as a function of frequency, kept in factors so that no digit is lost at either end of the
-/// axis.
+/// The open loop as a function of frequency, kept in factors so that no digit is lost at either end of the axis.
 ///
 ///     L(s) = C(s) Q(s) P(s) = N(s) e^{-s} / D(s)
 ///     N(s) = n0 + n1 s + n2 s^2,      D(s) = s^k (T_1 s + 1)(T_2 s + 1)...
 ///
-/// The closed loop's characteristic quasi-polynomial is D(s) + N(s) e^{-s}.                    [Huba2022
-/// (10), (20)] unit      s and omega per dead time, T in dead times
+/// The closed loop's characteristic quasi-polynomial is D(s) + N(s) e^{-s}.               [Huba2022 (10), (20)]
+/// unit      s and omega per dead time, T in dead times
 #pragma once
 
 #include <array>

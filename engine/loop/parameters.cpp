@@ -144,9 +144,8 @@ std::string setting_text(const Loop& loop) {
 }
 
 std::string simulate_command(const Loop& loop) {
-  std::string command =
-      fmt::format("portrait simulate --plant {} --n {} --prefilter {}", to_string(loop.family.plant),
-                  loop.family.n, to_string(loop.family.prefilter));
+  std::string command = fmt::format("portrait simulate --plant {} --n {} --prefilter {}",
+                                    to_string(loop.family.plant), loop.family.n, to_string(loop.family.prefilter));
   for (const Parameter p : parameters_of(loop.family))
     if (is_printed(p)) command += fmt::format(" --{} {}", option_name(p), number_text(get(loop.setting, p)));
   return command;

@@ -77,8 +77,7 @@ std::vector<double> positive_sign_changes(const Polynomial& p_given) {
 
   std::vector<double> roots;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-    if ((value(p, ends[i]) < 0) != (value(p, ends[i + 1]) < 0))
-      roots.push_back(bisected(p, ends[i], ends[i + 1]));
+    if ((value(p, ends[i]) < 0) != (value(p, ends[i + 1]) < 0)) roots.push_back(bisected(p, ends[i], ends[i + 1]));
   return roots;
 }
 

@@ -49,11 +49,10 @@ double scale(Measure measure, const RealPlant& plant) {
 
 RealController controller_for(const Loop& loop, const RealPlant& plant) {
   const Setting& s = loop.setting;
-  return {
-      .standard = {.Kc = s.kappa / input_gain(plant), .Ti = s.tau_i * plant.Td, .TD = tau_d(s) * plant.Td},
-      .Tf = s.tau_f * plant.Td,
-      .b = s.b * unit_of_b(loop.family.prefilter, plant.Td),
-      .c = s.c * plant.Td * plant.Td};
+  return {.standard = {.Kc = s.kappa / input_gain(plant), .Ti = s.tau_i * plant.Td, .TD = tau_d(s) * plant.Td},
+          .Tf = s.tau_f * plant.Td,
+          .b = s.b * unit_of_b(loop.family.prefilter, plant.Td),
+          .c = s.c * plant.Td * plant.Td};
 }
 
 Setting normalised(const RealController& controller, const RealPlant& plant, const LoopFamily& family) {

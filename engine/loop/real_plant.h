@@ -2,8 +2,9 @@
 ///
 /// With g = K Td^2 (dipdt), K Td (ipdt), K (fotd), the output that one unit of input builds up:
 ///
-///     t = Td t'        Kc = kappa/g     Ti = tau_i Td     Kd = delta Td/g     Tf = tau_f Td     T1 = tau_1
-///     Td setpoint step 1:     y = y'       u = u'/g disturbance step 1:  y = g y'     u = u'
+///     t = Td t'        Kc = kappa/g     Ti = tau_i Td     Kd = delta Td/g     Tf = tau_f Td     T1 = tau_1 Td
+///     setpoint step 1:     y = y'       u = u'/g
+///     disturbance step 1:  y = g y'     u = u'
 ///
 /// unit      time in that of Td; gain K in output per input (and per time or time^2 for integrating plants)
 #pragma once

@@ -9,16 +9,17 @@
 ///     Z = -2 sum_i  sigma_i round(phi_i / (2 pi))
 ///
 /// over the crossovers omega_i, with phi_i the continuous phase of L there and sigma_i = +1 where |L| falls
-/// below 1, -1 where it rises above. accuracy  right for loops 1e-9 from the boundary on either side, by
-/// kappa: tests/engine/loop/stability_test.cpp cost      a few microseconds
+/// below 1, -1 where it rises above.
+/// accuracy  right for loops 1e-9 from the boundary on either side, by kappa:
+///           tests/engine/loop/stability_test.cpp
+/// cost      a few microseconds
 #pragma once
 
 #include "engine/loop/open_loop.h"
 
 namespace portrait {
 
-/// Roots in the open right half-plane. REQUIRES: high_frequency_gain(loop) < 1 (else there are infinitely
-/// many).
+/// Roots in the open right half-plane. REQUIRES: high_frequency_gain(loop) < 1 (else infinitely many).
 int unstable_roots(const OpenLoop& loop);
 
 /// Every root in the open left half-plane; a neutral loop uniformly so.

@@ -7,8 +7,7 @@ namespace {
 
 constexpr std::string_view kIae = "integral of |w - y| from 0 to the horizon, w the unfiltered setpoint";
 constexpr std::string_view kTv = "sum of |increments| from 0- to the horizon, the jump at 0+ included";
-constexpr std::string_view kTv0 =
-    "total variation less |x(inf) - x(0-)|: deviation from a monotonic response";
+constexpr std::string_view kTv0 = "total variation less |x(inf) - x(0-)|: deviation from a monotonic response";
 constexpr std::string_view kTv1 = "total variation less that of the best shape with at most one extreme";
 constexpr std::string_view kTv2 =
     "total variation less that of the best shape with at most two extremes, alternating about x(inf)";

@@ -15,8 +15,7 @@ struct Points {
 Points points_for(Eigen::Index size) {
   Points points{Eigen::VectorXd(size), Eigen::MatrixXd(size, size)};
   const double n = static_cast<double>(size - 1);
-  for (Eigen::Index j = 0; j < size; ++j)
-    points.at(j) = std::cos(std::numbers::pi * static_cast<double>(j) / n);
+  for (Eigen::Index j = 0; j < size; ++j) points.at(j) = std::cos(std::numbers::pi * static_cast<double>(j) / n);
   for (Eigen::Index k = 0; k < size; ++k)
     for (Eigen::Index j = 0; j < size; ++j) {
       const double ends = (k == 0 || k == size - 1 ? 0.5 : 1) * (j == 0 || j == size - 1 ? 0.5 : 1);
@@ -74,8 +73,7 @@ Series derivative(const Series& c) {
   const Eigen::Index n = c.size() - 1;
   if (n < 1) return Series(0);
   Series d = Series::Zero(n);
-  for (Eigen::Index k = n; k >= 1; --k)
-    d(k - 1) = 2 * static_cast<double>(k) * c(k) + (k + 1 < n ? d(k + 1) : 0);
+  for (Eigen::Index k = n; k >= 1; --k) d(k - 1) = 2 * static_cast<double>(k) * c(k) + (k + 1 < n ? d(k + 1) : 0);
   d(0) *= 0.5;
   return d;
 }

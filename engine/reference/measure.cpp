@@ -53,16 +53,14 @@ double absolute_error(const std::vector<Piece>& pieces, double target, double no
 }
 
 /// Whether a signal stays near its rest over the last dead time.
-bool is_settled(const std::vector<Piece>& pieces, SeriesOf signal, double noise, double at_rest,
-                double horizon) {
+bool is_settled(const std::vector<Piece>& pieces, SeriesOf signal, double noise, double at_rest, double horizon) {
   const auto deviation = [&](std::span<const double> points) {
     double largest = 0;
     for (const double x : points) largest = std::max(largest, std::abs(x - at_rest));
     return largest;
   };
-  const auto first = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& piece) {
-    return piece.start + piece.length > horizon - 1;
-  });
+  const auto first = std::find_if(pieces.begin(), pieces.end(),
+                                  [&](const Piece& piece) { return piece.start + piece.length > horizon - 1; });
   const std::vector<double> last = turning_points({first, pieces.end()}, signal, noise);
   const double at_end = deviation(std::span(last).subspan(1));
   return at_end <= kSettlingBand * deviation(turning_points(pieces, signal, noise));
@@ -100,10 +98,8 @@ void measure_step(const StepResponse& r, Step step, MeasureRow& row) {
   const double target = step == kSetpoint ? 1 : 0;
   // Without integral action an error may remain for ever: then its integral does not exist.
   row[columns.IAE] = r.at_rest.y == target ? absolute_error(r.pieces, target, r.y_noise) : kNaN;
-  measure_signal(turning_points(r.pieces, &Piece::y, r.y_noise), r.at_rest.y, columns.of_y, columns.y_max,
-                 row);
-  measure_signal(turning_points(r.pieces, &Piece::u, r.u_noise), r.at_rest.u, columns.of_u, columns.u_max,
-                 row);
+  measure_signal(turning_points(r.pieces, &Piece::y, r.y_noise), r.at_rest.y, columns.of_y, columns.y_max, row);
+  measure_signal(turning_points(r.pieces, &Piece::u, r.u_noise), r.at_rest.u, columns.of_u, columns.u_max, row);
 }
 
 bool is_settled(const Response& response) {

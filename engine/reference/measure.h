@@ -18,8 +18,7 @@ struct Measured {
   double horizon = 0;   ///< dead times really simulated; 0 when unstable
 };
 
-/// Within this part of its largest deviation from rest a signal counts as settled, over the whole last dead
-/// time.
+/// Within this part of its largest deviation from rest a signal counts as settled, over the whole last dead time.
 inline constexpr double kSettlingBand = 0.01;
 
 /// REQUIRES: the loop is valid.

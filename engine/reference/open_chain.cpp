@@ -42,10 +42,7 @@ Sizes sizes_of(const Loop& loop) {
 class Diagram {
  public:
   explicit Diagram(const Loop& loop)
-      : family_(loop.family),
-        s_(loop.setting),
-        sizes_(sizes_of(loop)),
-        width_(sizes_.total() + kDelayed + kSteps) {
+      : family_(loop.family), s_(loop.setting), sizes_(sizes_of(loop)), width_(sizes_.total() + kDelayed + kSteps) {
     derivatives_ = Eigen::MatrixXd::Zero(sizes_.total(), width_);
     const Signal r = prefilter();
     const Signal u = controller(r - y());

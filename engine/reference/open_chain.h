@@ -8,8 +8,8 @@
 ///     q(t) = (z, z')(t - 1) = (y, y'),     v  = (w, d), constant
 ///
 /// y' is needed by the ideal derivative of the output (n = 0) only. Then D is not zero for ipdt and fotd: z'
-/// depends on y' at once, the loop is neutral, and jumps of z' come back after every dead time. unit
-/// normalised: time in dead times, plant gain 1
+/// depends on y' at once, the loop is neutral, and jumps of z' come back after every dead time.
+/// unit      normalised: time in dead times, plant gain 1
 #pragma once
 
 #include <Eigen/Core>

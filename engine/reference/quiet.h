@@ -3,8 +3,8 @@
 /// Over the last half of the run so far, [T/2, T], the largest deviations from rest in the two quarters, m1
 /// and m2, give the decay per quarter, rho = m2/m1. A tail that goes on so contributes at most (T/4) m2
 /// rho/(1 - rho) to the integral of the deviation; the run is quiet when that is below 1e-10 of the integral
-/// so far, for y and u and both steps. accuracy  an estimate from the decay seen, not a bound; a mode that is
-/// slower and still hidden escapes it
+/// so far, for y and u and both steps.
+/// accuracy  an estimate from the decay seen, not a bound; a mode that is slower and still hidden escapes it
 #pragma once
 
 #include <array>

@@ -57,8 +57,7 @@ struct Extent {
 /// Runs the loop on one fixed partition.
 class Run {
  public:
-  Run(const Loop& loop, const OpenChain& chain, const Nodes& nodes, const Partition& partition,
-      double tolerance)
+  Run(const Loop& loop, const OpenChain& chain, const Nodes& nodes, const Partition& partition, double tolerance)
       : chain_(chain), nodes_(nodes), tolerance_(tolerance), coarse_(partition.size(), false) {
     for (const double length : partition) panels_.emplace_back(chain, nodes, length);
     x_ = States::Zero(chain.states(), Eigen::Index{kSteps});
@@ -105,8 +104,7 @@ class Run {
     for (int step = 0; step < kSteps; ++step) {
       const Series z = nodes_.to_series * outputs[kZ].col(step), u = nodes_.to_series * outputs[kU].col(step);
       if (is_coarse(z, kZ, step) || is_coarse(u, kU, step)) coarse_[panel] = true;
-      response_.steps[step].pieces.push_back(
-          {start, panels_[panel].length(), nodes_.to_series * y.col(step), u});
+      response_.steps[step].pieces.push_back({start, panels_[panel].length(), nodes_.to_series * y.col(step), u});
     }
   }
 
@@ -176,8 +174,8 @@ Response simulate(const Loop& loop, Horizon horizon, const Accuracy& accuracy) {
     partition = halved(partition, run.coarse());
   }
   throw std::runtime_error(
-      fmt::format("the reference simulation cannot resolve this loop with {} panels a dead time: {}",
-                  kMostPanels, simulate_command(loop)));
+      fmt::format("the reference simulation cannot resolve this loop with {} panels a dead time: {}", kMostPanels,
+                  simulate_command(loop)));
 }
 
 double y_at(const StepResponse& response, double t) {

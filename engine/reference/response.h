@@ -30,11 +30,10 @@ struct Piece {
 
 /// The answer to one step.
 struct StepResponse {
-  std::vector<Piece>
-      pieces;  ///< without gaps from 0 to the horizon; the limits on both sides of an edge may differ
-  SteadyState at_rest;  ///< the exact limits as t -> inf of a stable loop
-  double y_noise = 0;   ///< how far rounding alone may move y
-  double u_noise = 0;   ///< the same for u
+  std::vector<Piece> pieces;  ///< without gaps from 0 to the horizon; y and u may jump at an edge
+  SteadyState at_rest;        ///< the exact limits as t -> inf of a stable loop
+  double y_noise = 0;         ///< how far rounding alone may move y
+  double u_noise = 0;         ///< the same for u
 };
 
 struct Response {
@@ -51,8 +50,8 @@ struct Accuracy {
 
 /// Both step responses. An automatic horizon ends when the deviations from rest, going on as they decayed
 /// over the last half of the run, would change no integral by more than 1e-10 of its value; at kHorizonCap it
-/// gives up and `quiet` is false. A loop that grows beyond 1e12 of its step is ended there. REQUIRES: the
-/// loop is valid; for an automatic horizon also stable.
+/// gives up and `quiet` is false. A loop that grows beyond 1e12 of its step is ended there.
+/// REQUIRES: the loop is valid; for an automatic horizon also stable.
 Response simulate(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {});
 
 /// The signal at one instant (the limit from the right at an edge). REQUIRES: 0 <= t <= horizon.

@@ -83,17 +83,18 @@ class Worker {
 
 }  // namespace
 
+int usual_threads() { return omp_get_max_threads(); }
+
 std::string_view sweep_method() { return "reference"; }
 
 void measure_settings(const LoopFamily& family, Horizon horizon, std::span<const Setting> settings,
                       std::size_t first, MeasureColumns& columns) {
-  for (std::size_t i = 0; i < settings.size(); ++i)
-    measure_one({family, settings[i]}, horizon, first + i, columns);
+  for (std::size_t i = 0; i < settings.size(); ++i) measure_one({family, settings[i]}, horizon, first + i, columns);
 }
 
 SweepOutcome sweep(const SweepJob& job) {
   const auto begin = std::chrono::steady_clock::now();
-  const int threads = job.threads > 0 ? job.threads : omp_get_max_threads();
+  const int threads = job.threads > 0 ? job.threads : usual_threads();
   TileQueue queue(job.measures, job.tile_count, job.settings_of, job.store);
   FirstFailure failure;
   std::mutex progress;

@@ -1,8 +1,10 @@
 /// The parallel sweep: tiles of settings in, tiles of measures out. The only place that knows of threads.
 ///
 /// Knows nothing of grids or files: the caller says how many tiles there are, which settings a tile holds,
-/// and what to do with its measures. result    the same bits for any number of threads errors    the first
-/// failure in a worker stops the sweep and is rethrown, with the command that reproduces the setting
+/// and what to do with its measures.
+/// result    the same bits for any number of threads
+/// errors    the first failure in a worker stops the sweep and is rethrown, with the command that reproduces
+///           the setting
 #pragma once
 
 #include <atomic>
@@ -23,14 +25,14 @@ struct SweepJob {
   Horizon horizon;
   std::vector<Measure> measures;  ///< kept ones, in catalogue order
   std::uint64_t tile_count = 0;
-  std::function<std::vector<Setting>(std::uint64_t tile)>
-      settings_of;  ///< called by one thread at a time, in order
-  std::function<void(std::uint64_t tile, const MeasureColumns&)>
-      store;  ///< called by one thread at a time, in order
-  std::function<void(std::uint64_t settings_measured)>
-      progress;                             ///< often, by one thread at a time; may be empty
+  /// The settings of a tile. Called by one thread at a time, in order of tiles.
+  std::function<std::vector<Setting>(std::uint64_t tile)> settings_of;
+  /// Takes the measures of a tile. Called by one thread at a time, in order of tiles.
+  std::function<void(std::uint64_t tile, const MeasureColumns&)> store;
+  /// Called often, by one thread at a time; may be empty.
+  std::function<void(std::uint64_t settings_measured)> progress;
   const std::atomic<bool>* stop = nullptr;  ///< when it becomes true, workers end after the slice in hand
-  int threads = 0;                          ///< 0: as many as OpenMP offers
+  int threads = 0;                          ///< 0: usual_threads()
 };
 
 struct SweepOutcome {
@@ -43,6 +45,9 @@ struct SweepOutcome {
 
 /// REQUIRES: every setting is valid for the family.
 SweepOutcome sweep(const SweepJob& job);
+
+/// As many threads as OpenMP offers on this machine; OMP_NUM_THREADS sets it.
+int usual_threads();
 
 /// How the sweep computes its measures, for the record: "reference".
 std::string_view sweep_method();

@@ -10,8 +10,7 @@ std::optional<Slice> TileQueue::next() {
     if (begun_ == tile_count_) return std::nullopt;
     std::vector<Setting> settings = settings_of_(begun_);
     const std::size_t count = settings.size();
-    current_ =
-        std::make_shared<Tile>(Tile{begun_, std::move(settings), MeasureColumns(measures_, count), count});
+    current_ = std::make_shared<Tile>(Tile{begun_, std::move(settings), MeasureColumns(measures_, count), count});
     ++begun_;
     cut_ = 0;
   }
