@@ -36,6 +36,11 @@ TEST(GridFile, TheExampleIsReadAsPrinted) {
   EXPECT_EQ(fixed_text(grid), (Strings{"b=0", "c=0"}));
 }
 
+TEST(GridFile, TheExampleIsTheOneOfTheReadme) {
+  const std::string readme = file_text(std::filesystem::path(PORTRAIT_SOURCE_DIR) / "grids/README.md");
+  EXPECT_NE(readme.find("```toml\n" + kExample + "```"), std::string::npos);
+}
+
 TEST(GridFile, AxesStandInTheOrderOfTheFile) {
   const Grid grid = parsed(kExample);
   Strings names;
