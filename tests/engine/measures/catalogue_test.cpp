@@ -51,10 +51,8 @@ TEST(Catalogue, TheStepIsTheNamesLastLetter) {
 TEST(Catalogue, TheUnitIsThatOfTheSignal) {
   const auto unit = [](std::string_view name) { return info(*measure_named(name)).unit; };
   for (const char* name : {"IAE_w", "IAE_d"}) EXPECT_EQ(unit(name), Unit::output_time) << name;
-  for (const char* name : {"TV_yw", "TV2_yd", "y_max_w", "y_max_d"})
-    EXPECT_EQ(unit(name), Unit::output) << name;
-  for (const char* name : {"TV_uw", "TV2_ud", "u_max_w", "u_max_d"})
-    EXPECT_EQ(unit(name), Unit::input) << name;
+  for (const char* name : {"TV_yw", "TV2_yd", "y_max_w", "y_max_d"}) EXPECT_EQ(unit(name), Unit::output) << name;
+  for (const char* name : {"TV_uw", "TV2_ud", "u_max_w", "u_max_d"}) EXPECT_EQ(unit(name), Unit::input) << name;
   for (const char* name : {"Ms", "Mt"}) EXPECT_EQ(unit(name), Unit::one) << name;
 }
 
