@@ -1,7 +1,7 @@
 /// One axis of a grid: a parameter and its values, strictly increasing.
 ///
-/// A value is what a person would write: each is rounded to the nearest number of 15 decimal digits, so that the
-/// eighth value of 0.35, 0.40, ... is the double 0.7 and not 0.7000000000000001.
+/// A value is what a person would write: each is rounded to the nearest number of 15 decimal digits, so that
+/// the eighth value of 0.35, 0.40, ... is the double 0.7 and not 0.7000000000000001.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 /// A grid: everything that says which loops a sweep simulates and what it keeps of them.
 ///
-/// Settings are numbered 0 .. setting_count - 1, the last axis fastest (row-major), as the datasets of a portrait are.
+/// Settings are numbered 0 .. setting_count - 1, the last axis fastest (row-major), as the datasets of a
+/// portrait are.
 #pragma once
 
 #include <cstdint>
@@ -27,10 +28,11 @@ struct Grid {
   LoopFamily family;
   Horizon horizon;
   Precision precision = Precision::real64;
-  std::vector<Measure> measures;        ///< kept ones, in catalogue order
-  std::vector<Axis> axes;               ///< in the order of the grid file; a single setting has none
-  std::vector<FixedParameter> fixed;    ///< every parameter of the family that is no axis; either delta or tau_d
-  std::string text;                     ///< the grid file, byte for byte
+  std::vector<Measure> measures;  ///< kept ones, in catalogue order
+  std::vector<Axis> axes;         ///< in the order of the grid file; a single setting has none
+  std::vector<FixedParameter>
+      fixed;         ///< every parameter of the family that is no axis; either delta or tau_d
+  std::string text;  ///< the grid file, byte for byte
 };
 
 /// Product of the axes' sizes; 1 for a grid without axes. REQUIRES: below 2^63, which the reader has checked.

@@ -1,8 +1,8 @@
 /// A grid cut into tiles: blocks of settings that are computed together and stored as one chunk.
 ///
-/// A tile is a box in the grid. Trailing axes are kept whole as long as the box stays within `kTileSettings`, so a
-/// tile reads and writes contiguous rows; the same box is a chunk of the portrait file. The tiling depends on the
-/// extents alone: never on threads, shards or the machine.
+/// A tile is a box in the grid. Trailing axes are kept whole as long as the box stays within `kTileSettings`,
+/// so a tile reads and writes contiguous rows; the same box is a chunk of the portrait file. The tiling
+/// depends on the extents alone: never on threads, shards or the machine.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-/// Our own mistakes. A check that fails is a bug in Portrait, never bad input: it throws, so that a sweep can name
-/// the setting at which it happened, and it prints both values.
+/// Our own mistakes. A check that fails is a bug in Portrait, never bad input: it throws, so that a sweep can
+/// name the setting at which it happened, and it prints both values.
 ///
 ///     PORTRAIT_CHECK(condition)      always on
 ///     PORTRAIT_CHECK_EQ(a, b)        always on, prints a and b

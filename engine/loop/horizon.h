@@ -3,8 +3,8 @@
 
 namespace portrait {
 
-/// A fixed horizon gives the truncated integrals of the papers; `automatic` runs until the responses have settled so
-/// far that the rest cannot matter, or to the cap.
+/// A fixed horizon gives the truncated integrals of the papers; `automatic` runs until the responses have
+/// settled so far that the rest cannot matter, or to the cap.
 struct Horizon {
   double dead_times = 0;  ///< fixed: above 0
   bool automatic = false;

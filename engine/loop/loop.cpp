@@ -36,7 +36,8 @@ std::optional<std::string> why_prefilter_invalid(Prefilter prefilter, const Sett
   const bool derivative = s.delta > 0;
   if (prefilter == Prefilter::none && (s.b != 0 || s.c != 0))
     return "b and c belong to a prefilter: with prefilter = \"none\" both must be 0";
-  if (prefilter == Prefilter::pi && s.c != 0) return must("c", "0 with prefilter = \"pi\", whose numerator is 1 + b tau_i s", s.c);
+  if (prefilter == Prefilter::pi && s.c != 0)
+    return must("c", "0 with prefilter = \"pi\", whose numerator is 1 + b tau_i s", s.c);
   if (prefilter != Prefilter::full) return std::nullopt;
   if (s.c != 0 && !(derivative && has_integral_action(s)))
     return must("c", "0 without both integral and derivative action, or the prefilter is improper", s.c);
@@ -62,7 +63,8 @@ std::optional<std::string> why_invalid(const Loop& loop) {
   if (loop.family.n < 0 || loop.family.n > kMaxFilterOrder)
     return fmt::format("n must be 0 .. {} (it is {})", kMaxFilterOrder, loop.family.n);
   if (auto reason = why_controller_invalid(s)) return reason;
-  if (loop.family.plant == Plant::fotd && !finite_above_zero(s.tau_1)) return must("tau_1", "finite and above 0", s.tau_1);
+  if (loop.family.plant == Plant::fotd && !finite_above_zero(s.tau_1))
+    return must("tau_1", "finite and above 0", s.tau_1);
   if (loop.family.n >= 1 && !finite_above_zero(s.tau_f)) return must("tau_f", "finite and above 0", s.tau_f);
   return why_prefilter_invalid(loop.family.prefilter, s);
 }

@@ -7,12 +7,13 @@
 ///     P   plant            dipdt e^{-s}/s^2,  ipdt e^{-s}/s,  fotd e^{-s}/(tau_1 s + 1)       [Huba2022 (7)]
 ///     C   controller       kappa (1 + 1/(tau_i s) + tau_d s),  delta = kappa tau_d            [Huba2022 (18)]
 ///     Q   filter           1/(tau_f s + 1)^n                                                  [Huba2022 (39)]
-///     F   prefilter        full, pi or none, see `Prefilter`                                  [Huba2022 (16), (24), (44)]
+///     F   prefilter        full, pi or none, see `Prefilter`                        [Huba2022 (16), (24), (44)]
 ///
-/// n >= 1: the whole controller acts on r - y through Q. n = 0: there is no filter and the ideal derivative acts on
-/// the measured output alone, u = kappa (r - y) + (kappa/tau_i) int(r - y) - delta y', so that u has no impulses.
+/// n >= 1: the whole controller acts on r - y through Q. n = 0: there is no filter and the ideal derivative
+/// acts on the measured output alone, u = kappa (r - y) + (kappa/tau_i) int(r - y) - delta y', so that u has
+/// no impulses.
 ///
-/// unit      time in dead times, plant gain 1: everything in engine/ is normalised, `real_plant.h` leads out and in
+/// unit      time in dead times, plant gain 1: everything in engine/ is normalised, real_plant.h leads out and in
 #pragma once
 
 #include <array>

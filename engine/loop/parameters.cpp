@@ -43,25 +43,38 @@ std::string normalisation(Parameter parameter, Plant plant) {
   const bool dipdt = plant == Plant::dipdt;
   const bool ipdt = plant == Plant::ipdt;
   switch (parameter) {
-    case Parameter::kappa: return dipdt ? "Kc K Td^2" : ipdt ? "Kc K Td" : "Kc K";
-    case Parameter::delta: return dipdt ? "Kd K Td" : ipdt ? "Kd K" : "Kd K/Td";
-    case Parameter::tau_i: return "Ti/Td";
-    case Parameter::tau_d: return "TD/Td";
-    case Parameter::tau_1: return "T1/Td";
-    case Parameter::tau_f: return "Tf/Td";
-    case Parameter::b: return "b/Td (prefilter full), b (prefilter pi)";
-    case Parameter::c: return "c/Td^2";
+    case Parameter::kappa:
+      return dipdt ? "Kc K Td^2" : ipdt ? "Kc K Td" : "Kc K";
+    case Parameter::delta:
+      return dipdt ? "Kd K Td" : ipdt ? "Kd K" : "Kd K/Td";
+    case Parameter::tau_i:
+      return "Ti/Td";
+    case Parameter::tau_d:
+      return "TD/Td";
+    case Parameter::tau_1:
+      return "T1/Td";
+    case Parameter::tau_f:
+      return "Tf/Td";
+    case Parameter::b:
+      return "b/Td (prefilter full), b (prefilter pi)";
+    case Parameter::c:
+      return "c/Td^2";
   }
   return {};
 }
 
 bool applies(Parameter parameter, const LoopFamily& family) {
   switch (parameter) {
-    case Parameter::tau_1: return family.plant == Plant::fotd;
-    case Parameter::tau_f: return family.n >= 1;
-    case Parameter::b: return family.prefilter != Prefilter::none;
-    case Parameter::c: return family.prefilter == Prefilter::full;
-    default: return true;
+    case Parameter::tau_1:
+      return family.plant == Plant::fotd;
+    case Parameter::tau_f:
+      return family.n >= 1;
+    case Parameter::b:
+      return family.prefilter != Prefilter::none;
+    case Parameter::c:
+      return family.prefilter == Prefilter::full;
+    default:
+      return true;
   }
 }
 
@@ -74,28 +87,52 @@ std::vector<Parameter> parameters_of(const LoopFamily& family) {
 
 double get(const Setting& setting, Parameter parameter) {
   switch (parameter) {
-    case Parameter::kappa: return setting.kappa;
-    case Parameter::tau_i: return setting.tau_i;
-    case Parameter::delta: return setting.delta;
-    case Parameter::tau_d: return tau_d(setting);
-    case Parameter::tau_1: return setting.tau_1;
-    case Parameter::tau_f: return setting.tau_f;
-    case Parameter::b: return setting.b;
-    case Parameter::c: return setting.c;
+    case Parameter::kappa:
+      return setting.kappa;
+    case Parameter::tau_i:
+      return setting.tau_i;
+    case Parameter::delta:
+      return setting.delta;
+    case Parameter::tau_d:
+      return tau_d(setting);
+    case Parameter::tau_1:
+      return setting.tau_1;
+    case Parameter::tau_f:
+      return setting.tau_f;
+    case Parameter::b:
+      return setting.b;
+    case Parameter::c:
+      return setting.c;
   }
   return kNaN;
 }
 
 void set(Setting& setting, Parameter parameter, double value) {
   switch (parameter) {
-    case Parameter::kappa: setting.kappa = value; return;
-    case Parameter::tau_i: setting.tau_i = value; return;
-    case Parameter::delta: setting.delta = value; return;
-    case Parameter::tau_d: setting.delta = setting.kappa * value; return;
-    case Parameter::tau_1: setting.tau_1 = value; return;
-    case Parameter::tau_f: setting.tau_f = value; return;
-    case Parameter::b: setting.b = value; return;
-    case Parameter::c: setting.c = value; return;
+    case Parameter::kappa:
+      setting.kappa = value;
+      return;
+    case Parameter::tau_i:
+      setting.tau_i = value;
+      return;
+    case Parameter::delta:
+      setting.delta = value;
+      return;
+    case Parameter::tau_d:
+      setting.delta = setting.kappa * value;
+      return;
+    case Parameter::tau_1:
+      setting.tau_1 = value;
+      return;
+    case Parameter::tau_f:
+      setting.tau_f = value;
+      return;
+    case Parameter::b:
+      setting.b = value;
+      return;
+    case Parameter::c:
+      setting.c = value;
+      return;
   }
 }
 
@@ -107,8 +144,8 @@ std::string setting_text(const Loop& loop) {
 }
 
 std::string simulate_command(const Loop& loop) {
-  std::string command = fmt::format("portrait simulate --plant {} --n {} --prefilter {}", to_string(loop.family.plant),
-                                    loop.family.n, to_string(loop.family.prefilter));
+  std::string command = fmt::format("portrait simulate --plant {} --n {} --prefilter {}",
+                                    to_string(loop.family.plant), loop.family.n, to_string(loop.family.prefilter));
   for (const Parameter p : parameters_of(loop.family))
     if (is_printed(p)) command += fmt::format(" --{} {}", option_name(p), number_text(get(loop.setting, p)));
   return command;

@@ -27,7 +27,8 @@ std::optional<Parameter> parameter_named(std::string_view name);
 /// Kc K Td^2 for dipdt, Kc K Td for ipdt, ...: what the parameter is in the quantities of a real plant.
 std::string normalisation(Parameter parameter, Plant plant);
 
-/// Whether a loop of this family has the parameter: tau_1 only fotd, tau_f only n >= 1, b and c only with a prefilter.
+/// Whether a loop of this family has the parameter: tau_1 only fotd, tau_f only n >= 1, b and c only with a prefilter
+/// that has them.
 bool applies(Parameter parameter, const LoopFamily& family);
 
 /// The parameters of this family, in printing order, tau_d among them.
@@ -38,7 +39,7 @@ double get(const Setting& setting, Parameter parameter);
 /// REQUIRES: for tau_d, that kappa was set before.
 void set(Setting& setting, Parameter parameter, double value);
 
-/// "kappa=0.24 tau_i=8 delta=0.7", as `portrait simulate` takes it when `prefix` is "--" and `joiner` is " ".
+/// "kappa=0.24 tau_i=8 delta=0.7".
 std::string setting_text(const Loop& loop);
 /// The command that runs this one loop: "portrait simulate --plant dipdt --kappa 0.24 ...".
 std::string simulate_command(const Loop& loop);

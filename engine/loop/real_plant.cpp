@@ -35,10 +35,14 @@ double scale(Measure measure, const RealPlant& plant) {
   const double y = m.step == 'd' ? gain : 1;
   const double u = m.step == 'd' ? 1 : 1 / gain;
   switch (m.unit) {
-    case Unit::one: return 1;
-    case Unit::output: return y;
-    case Unit::output_time: return y * plant.Td;
-    case Unit::input: return u;
+    case Unit::one:
+      return 1;
+    case Unit::output:
+      return y;
+    case Unit::output_time:
+      return y * plant.Td;
+    case Unit::input:
+      return u;
   }
   return kNaN;
 }

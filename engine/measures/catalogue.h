@@ -1,7 +1,7 @@
 /// The measures: one number per setting. Names are public; order here is the order of columns everywhere.
 ///
-/// Suffix _w: unit setpoint step at t = 0. Suffix _d: unit input-disturbance step at t = 0, before the dead time.
-/// unit      normalised (dimensionless); `scale` in engine/loop/real_plant.h leads to real units
+/// Suffix _w: unit setpoint step at t = 0. Suffix _d: unit input-disturbance step at t = 0, before the dead
+/// time. unit      normalised (dimensionless); `scale` in engine/loop/real_plant.h leads to real units
 #pragma once
 
 #include <array>
@@ -12,13 +12,30 @@
 namespace portrait {
 
 enum class Measure {
-  IAE_w, IAE_d,
-  TV_yw, TV0_yw, TV1_yw, TV2_yw,
-  TV_uw, TV0_uw, TV1_uw, TV2_uw,
-  TV_yd, TV0_yd, TV1_yd, TV2_yd,
-  TV_ud, TV0_ud, TV1_ud, TV2_ud,
-  y_max_w, u_max_w, y_max_d, u_max_d,
-  Ms, Mt,
+  IAE_w,
+  IAE_d,
+  TV_yw,
+  TV0_yw,
+  TV1_yw,
+  TV2_yw,
+  TV_uw,
+  TV0_uw,
+  TV1_uw,
+  TV2_uw,
+  TV_yd,
+  TV0_yd,
+  TV1_yd,
+  TV2_yd,
+  TV_ud,
+  TV0_ud,
+  TV1_ud,
+  TV2_ud,
+  y_max_w,
+  u_max_w,
+  y_max_d,
+  u_max_d,
+  Ms,
+  Mt,
 };
 inline constexpr std::size_t kMeasureCount = 24;
 

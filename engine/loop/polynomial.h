@@ -1,0 +1,21 @@
+/// Real polynomials of one variable: small, dense, coefficients from the lowest power up.
+#pragma once
+
+#include <vector>
+
+namespace portrait {
+
+using Polynomial = std::vector<double>;  ///< p(x) = p[0] + p[1] x + ...
+
+double value(const Polynomial& p, double x);
+Polynomial derivative(const Polynomial& p);
+Polynomial product(const Polynomial& p, const Polynomial& q);
+Polynomial difference(const Polynomial& p, const Polynomial& q);
+
+/// The points x > 0 at which p changes sign, increasing.
+/// method    between two neighbouring stationary points p is monotonic: the roots of p' separate those of p
+/// accuracy  half a unit in the last place of log x, as far as p can be evaluated; a root of even order is no
+///           sign change and is left out
+std::vector<double> positive_sign_changes(const Polynomial& p);
+
+}  // namespace portrait

@@ -1,0 +1,30 @@
+/// All measures of one loop, by the reference simulation: definitions taken literally, nothing sampled.
+///
+/// Extremes are sign changes of y' and u', integrals of |e| are split at the sign changes of e and taken from
+/// antiderivatives. The error is that of the simulation.
+#pragma once
+
+#include "engine/base/status.h"
+#include "engine/loop/horizon.h"
+#include "engine/loop/loop.h"
+#include "engine/measures/catalogue.h"
+#include "engine/reference/response.h"
+
+namespace portrait::reference {
+
+struct Measured {
+  Status status = Status::not_computed;
+  MeasureRow measures;  ///< all NaN when unstable
+  double horizon = 0;   ///< dead times really simulated; 0 when unstable
+};
+
+/// Within this part of its largest deviation from rest a signal counts as settled, over the whole last dead time.
+inline constexpr double kSettlingBand = 0.01;
+
+/// REQUIRES: the loop is valid.
+Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {});
+
+/// The same from a response at hand. REQUIRES: `response` is that of a stable `loop`.
+Measured measure(const Loop& loop, const Response& response);
+
+}  // namespace portrait::reference

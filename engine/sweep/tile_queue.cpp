@@ -1,0 +1,55 @@
+#include "engine/sweep/tile_queue.h"
+
+#include <algorithm>
+
+namespace portrait {
+
+std::optional<Slice> TileQueue::next() {
+  const std::scoped_lock lock(mutex_);
+  if (!current_ || cut_ == current_->settings.size()) {
+    if (begun_ == tile_count_) return std::nullopt;
+    std::vector<Setting> settings = settings_of_(begun_);
+    const std::size_t count = settings.size();
+    current_ = std::make_shared<Tile>(Tile{begun_, std::move(settings), MeasureColumns(measures_, count), count});
+    ++begun_;
+    cut_ = 0;
+  }
+  const std::size_t count = std::min(kSliceSettings, current_->settings.size() - cut_);
+  const Slice slice{current_, cut_, count};
+  cut_ += count;
+  return slice;
+}
+
+void TileQueue::finish(const Slice& slice) {
+  std::unique_lock lock(mutex_);
+  measured_ += slice.count;
+  slice.tile->unfinished -= slice.count;
+  if (slice.tile->unfinished > 0) return;
+  waiting_.emplace(slice.tile->number, slice.tile);
+  if (!storing_) store_in_order(lock);
+}
+
+void TileQueue::store_in_order(std::unique_lock<std::mutex>& lock) {
+  storing_ = true;
+  for (auto tile = waiting_.find(stored_); tile != waiting_.end(); tile = waiting_.find(stored_)) {
+    const std::shared_ptr<Tile> ready = tile->second;
+    waiting_.erase(tile);
+    lock.unlock();  // others go on measuring while this thread stores
+    store_(ready->number, ready->columns);
+    lock.lock();
+    ++stored_;
+  }
+  storing_ = false;
+}
+
+std::uint64_t TileQueue::settings_measured() const {
+  const std::scoped_lock lock(mutex_);
+  return measured_;
+}
+
+std::uint64_t TileQueue::tiles_stored() const {
+  const std::scoped_lock lock(mutex_);
+  return stored_;
+}
+
+}  // namespace portrait
