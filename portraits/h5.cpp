@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -9,8 +11,11 @@
 #include <utility>
 
 #include <H5Cpp.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5_hl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "engine/base/error.h"
 
@@ -19,7 +24,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "digests are of the bytes in memory");
 
-/// bench: on measures of portraits 1 is within 2 % of 4 in size and nearly twice as fast.
+/// On 24 measures of 64 x 64 PI loops, shuffled: level 1 makes doubles 1.388 times smaller, level 4 1.398 times and
+/// slower; floats 1.498 and 1.514 times.
 constexpr unsigned kDeflateLevel = 1;
 constexpr std::uint64_t kLongestText = std::uint64_t{64} << 20;
 constexpr unsigned kCreationOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
@@ -42,7 +48,7 @@ class Listener {
   Listener& operator=(const Listener&) = delete;
 
   /// The system's own words when it was the system that failed.
-  std::string words() const { return system_failed() ? between_quotes() : words_; }
+  std::string words() const { return system_failed() ? system_words() : words_; }
   bool system_failed() const { return words_.find("errno = ") != std::string::npos; }
 
  private:
@@ -55,10 +61,13 @@ class Listener {
     if (depth == 0) static_cast<Listener*>(self)->words_ = error->desc;
     return 0;
   }
-  std::string between_quotes() const {
-    const std::size_t first = words_.find('\'');
-    const std::size_t last = words_.find('\'', first + 1);
-    return last == std::string::npos ? words_ : words_.substr(first + 1, last - first - 1);
+  /// "... errno = 28, error message = 'No space left on device', ..." to the message.
+  std::string system_words() const {
+    const std::string before = "error message = '";
+    const std::size_t found = words_.find(before);
+    if (found == std::string::npos) return words_;
+    const std::size_t first = found + before.size();
+    return words_.substr(first, words_.find('\'', first) - first);
   }
 
   std::string words_;
@@ -155,11 +164,16 @@ H5::DSetCreatPropList creation_of(const Layout& layout) {
   return list;
 }
 
+/// Of a group, the root among them: names and attributes keep their order, nothing depends on the time of day.
+void keep_order(hid_t list) {
+  called(H5Pset_link_creation_order(list, kCreationOrder));
+  called(H5Pset_attr_creation_order(list, kCreationOrder));
+  called(H5Pset_obj_track_times(list, false));
+}
+
 H5::FileCreatPropList file_creation() {
   H5::FileCreatPropList list;
-  called(H5Pset_link_creation_order(list.getId(), kCreationOrder));
-  called(H5Pset_attr_creation_order(list.getId(), kCreationOrder));
-  called(H5Pset_obj_track_times(list.getId(), false));
+  keep_order(list.getId());
   return list;
 }
 
@@ -167,19 +181,33 @@ H5::FileAccPropList file_access(bool writing) {
   H5::FileAccPropList list;
   list.setFcloseDegree(H5F_CLOSE_STRONG);
   list.setLibverBounds(H5F_LIBVER_V18, H5F_LIBVER_V18);
+  list.setSieveBufSize(0);
   // A published portrait never changes: reading needs no lock, and some network file systems have none.
   if (!writing) called(H5Pset_file_locking(list.getId(), false, true));
   return list;
 }
 
-/// Closing may fail (full disk). The file is given up then, yet destroying the object would close and fail
-/// again, and print; so it is let go.
-void give_up(H5::H5File* file) {
-  try {
-    file->close();
-    delete file;
-  } catch (const H5::Exception&) {
-  }
+/// HDF5 writes straight to the disk: tiles are whole chunks, so caching them gains nothing, and a dataset that holds
+/// nothing back can be closed even when the disk is full.
+H5::DSetAccPropList uncached() {
+  H5::DSetAccPropList list;
+  list.setChunkCache(0, 0, 1);
+  return list;
+}
+
+/// The system's descriptor behind an open file.
+int& descriptor_of(const H5::H5File& file) {
+  void* descriptor = nullptr;
+  called(H5Fget_vfd_handle(file.getId(), H5P_DEFAULT, &descriptor));
+  return *static_cast<int*>(descriptor);
+}
+
+/// From here on what HDF5 writes goes to memory that nobody reads.
+void write_nowhere(const H5::H5File& file) {
+  const int nowhere = memfd_create("abandoned portrait", MFD_CLOEXEC);
+  if (nowhere < 0) return;
+  dup3(nowhere, descriptor_of(file), O_CLOEXEC);
+  close(nowhere);
 }
 
 std::string quoted(const std::string& attribute, const Object& object) {
@@ -374,28 +402,31 @@ File::File(std::shared_ptr<H5::H5File> file, std::shared_ptr<const Origin> origi
 File File::create(const std::filesystem::path& path) {
   const auto origin = std::make_shared<Origin>(Origin{path.string(), true, 0});
   return guarded(*origin, "create the file", [&] {
-    std::shared_ptr<H5::H5File> file(
-        new H5::H5File(path.string(), H5F_ACC_EXCL, file_creation(), file_access(true)), give_up);
-    return File(std::move(file), origin);
+    return File(std::make_shared<H5::H5File>(path.string(), H5F_ACC_EXCL, file_creation(), file_access(true)),
+                origin);
   });
 }
 
 File File::open(const std::filesystem::path& path) {
   const auto origin = std::make_shared<Origin>(Origin{path.string(), false, std::filesystem::file_size(path)});
   return guarded(*origin, "open the file", [&] {
-    std::shared_ptr<H5::H5File> file(
-        new H5::H5File(path.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, file_access(false)), give_up);
-    return File(std::move(file), origin);
+    const auto& defaults = H5::FileCreatPropList::DEFAULT;
+    return File(std::make_shared<H5::H5File>(path.string(), H5F_ACC_RDONLY, defaults, file_access(false)), origin);
   });
 }
 
 void File::create_group(const std::string& name) const {
-  guarded(origin(), "create the group " + name, [&] { file_->createGroup(name); });
+  guarded(origin(), "create the group " + name, [&] {
+    const H5::PropList list(H5P_GROUP_CREATE);
+    keep_order(list.getId());
+    called(H5Gclose(called(H5Gcreate2(file_->getId(), name.c_str(), H5P_DEFAULT, list.getId(), H5P_DEFAULT))));
+  });
 }
 
 Dataset File::create_dataset(const std::string& name, const Layout& layout) const {
   return guarded(origin(), "create " + name, [&] {
-    auto made = file_->createDataSet(name, type_of(layout.element), space_of(layout.extent), creation_of(layout));
+    auto made = file_->createDataSet(name, type_of(layout.element), space_of(layout.extent), creation_of(layout),
+                                     uncached());
     return Dataset(std::make_shared<H5::DataSet>(std::move(made)), layout, shared_origin(), name);
   });
 }
@@ -407,7 +438,7 @@ bool File::contains(const std::string& name) const {
 Dataset File::dataset(const std::string& name) const {
   return guarded(origin(), "open " + name, [&] {
     if (!file_->nameExists(name)) fail(origin(), name + " is missing");
-    const auto found = std::make_shared<H5::DataSet>(file_->openDataSet(name));
+    const auto found = std::make_shared<H5::DataSet>(file_->openDataSet(name, uncached()));
     const std::optional<Element> element = element_of(*found);
     if (!element) fail(origin(), name + " has values of an unknown type");
     const std::vector<std::uint64_t> extent = extent_of(found->getSpace());
@@ -416,8 +447,21 @@ Dataset File::dataset(const std::string& name) const {
   });
 }
 
+// A close that fails leaves HDF5 with a file it frees a second time at exit, which ends the process; a flush that fails
+// leaves one that can be abandoned. So all that can fail for want of space is done before closing.
 void File::close() {
-  guarded(origin(), "close the file", [&] { file_->close(); });
+  guarded(origin(), "close the file", [&] {
+    called(H5Fflush(file_->getId(), H5F_SCOPE_LOCAL));
+    if (fsync(descriptor_of(*file_)) != 0) fail(origin(), fmt::format("cannot sync it: {}", std::strerror(errno)));
+    file_->close();
+  });
+}
+
+void File::abandon() {
+  guarded(origin(), "abandon the file", [&] {
+    write_nowhere(*file_);
+    file_->close();
+  });
 }
 
 bool is_hdf5(const std::filesystem::path& path) {

@@ -81,8 +81,7 @@ class Dataset : public Object {
   /// edges; the box lies in the dataset.
   void write(const std::vector<std::uint64_t>& start, const std::vector<std::uint64_t>& extent,
              const void* from) const;
-  void read(const std::vector<std::uint64_t>& start, const std::vector<std::uint64_t>& extent,
-            void* into) const;
+  void read(const std::vector<std::uint64_t>& start, const std::vector<std::uint64_t>& extent, void* into) const;
   /// All values of a contiguous dataset. REQUIRES: room for layout().count() values, which a reader has
   /// checked.
   void write_all(const void* from) const;
@@ -117,6 +116,9 @@ class File : public Object {
   /// Writes everything out and closes the file together with its datasets. REQUIRES: nothing of it is used
   /// afterwards.
   void close();
+  /// Closes the file without writing anything more to it: for one that is to be removed, perhaps since the disk is
+  /// full. REQUIRES: as close.
+  void abandon();
 
  private:
   File(std::shared_ptr<H5::H5File> file, std::shared_ptr<const Origin> origin);

@@ -83,21 +83,28 @@ Parameter read_parameter_name(const h5::File& file, const LoopFamily& family, co
 Axis read_axis(const h5::File& file, const LoopFamily& family, const std::string& name) {
   const Parameter parameter = read_parameter_name(file, family, name);
   std::vector<double> values = read_reals(file, name, 1);
-  const bool increasing =
-      std::adjacent_find(values.begin(), values.end(), std::not_fn(std::less<>())) == values.end();
+  // Not "greater or equal": nothing holds of a NaN.
+  const auto not_below = std::not_fn(std::less<>());
+  const bool increasing = std::adjacent_find(values.begin(), values.end(), not_below) == values.end();
   if (values.empty() || std::isnan(values.front()) || !increasing)
     broken(file, fmt::format("the values of axis {} do not increase", name));
   return Axis::list(parameter, std::move(values));
 }
 
+Measure read_measure_name(const h5::File& file, const std::string& name) {
+  const std::optional<Measure> measure = measure_named(name);
+  if (!measure)
+    throw InputError(fmt::format("{}: this portrait has a measure {}, which this program does not know",
+                                 file.origin().file, name));
+  return *measure;
+}
+
 std::vector<Measure> read_measures(const h5::File& file) {
   std::vector<Measure> measures;
-  for (const std::string& name : schema::names_in(file.text("measures"))) {
-    const std::optional<Measure> measure = measure_named(name);
-    if (!measure || (!measures.empty() && *measure <= measures.back()))
-      broken(file, fmt::format("attribute measures does not name measures in their order (at \"{}\")", name));
-    measures.push_back(*measure);
-  }
+  for (const std::string& name : schema::names_in(file.text("measures")))
+    measures.push_back(read_measure_name(file, name));
+  if (std::adjacent_find(measures.begin(), measures.end(), std::greater_equal<>()) != measures.end())
+    broken(file, "attribute measures does not name each measure once, in their order");
   return measures;
 }
 

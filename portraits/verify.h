@@ -1,7 +1,7 @@
 /// Whether a portrait still is what was written: every dataset read in full and held against its digests.
 ///
-/// Not looked at: the references between datasets and their dimension scales, which only other programs follow. HDF5
-/// 1.10 keeps them without a checksum, and following damaged ones ends the process (H5HG_read).
+/// Not looked at: the references between datasets and their dimension scales, which only other programs follow.
+/// HDF5 1.10 keeps them without a checksum, and following damaged ones ends the process (in H5HG_read).
 #pragma once
 
 #include <filesystem>

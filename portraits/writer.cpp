@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
+#include "engine/base/error.h"
 #include "portraits/output_column.h"
 #include "portraits/plain_dataset.h"
 #include "portraits/schema.h"
@@ -44,15 +45,24 @@ void write_as(OutputColumn& column, std::uint64_t tile, const std::vector<double
 /// The open file with its columns.
 class PortraitWriter::File {
  public:
-  File(const std::filesystem::path& path, const Grid& grid, const Provenance& provenance)
-      : grid_(grid), rows_(grid), file_(h5::File::create(path)), written_(rows_.tile_count(), false) {
+  File(const std::filesystem::path& path, const Grid& grid)
+      : grid_(grid), rows_(grid), file_(h5::File::create(path)), written_(rows_.tile_count(), false) {}
+  ~File() {
+    if (!closed_) abandon();
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  /// Everything but values. Not in the constructor: a file on which this fails must be abandoned too.
+  void begin(const Provenance& provenance) {
     file_.set_text("Conventions", "CF-1.10");
-    file_.set_text("title", grid.title);
+    file_.set_text("title", grid_.title);
     write_provenance(file_, provenance);
-    write_grid(file_, grid);
-    write_nexus(file_, grid);
-    for (const Measure measure : grid.measures) measures_.push_back(OutputColumn::of_measure(file_, grid, measure));
-    status_.push_back(OutputColumn::of_status(file_, grid));
+    write_grid(file_, grid_);
+    write_nexus(file_, grid_);
+    for (const Measure measure : grid_.measures)
+      measures_.push_back(OutputColumn::of_measure(file_, grid_, measure));
+    status_.push_back(OutputColumn::of_status(file_, grid_));
   }
 
   void write(std::uint64_t tile, const MeasureColumns& columns) {
@@ -75,9 +85,18 @@ class PortraitWriter::File {
     status_.front().finish(file_, scale);
     write_run_facts(file_, facts);
     file_.close();
+    closed_ = true;
   }
 
  private:
+  void abandon() {
+    try {
+      file_.abandon();
+    } catch (const StoreError&) {
+      // The file is removed next; why it would not close is of no use to anyone.
+    }
+  }
+
   void write_values(OutputColumn& column, std::uint64_t tile, const std::vector<double>& values) {
     PORTRAIT_CHECK_EQ(values.size(), rows_.range(tile).count);
     if (grid_.precision == Precision::real64)
@@ -104,13 +123,15 @@ class PortraitWriter::File {
   std::vector<OutputColumn> measures_;
   std::vector<OutputColumn> status_;  ///< one
   std::vector<bool> written_;
+  bool closed_ = false;
 };
 
 PortraitWriter::PortraitWriter(const std::filesystem::path& path, const Grid& grid, const Provenance& provenance,
                                Existing existing)
     : temporary_(path), existing_(existing) {
   check_target(path, existing);
-  file_ = std::make_unique<File>(temporary_.path(), grid, provenance);
+  file_ = std::make_unique<File>(temporary_.path(), grid);
+  file_->begin(provenance);
 }
 
 PortraitWriter::~PortraitWriter() = default;

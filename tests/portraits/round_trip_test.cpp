@@ -42,7 +42,7 @@ std::map<std::string, std::string> digests(const std::filesystem::path& path) {
   return found;
 }
 
-// 1 x 5 and 5 x 1 have axes of one value; 2 x 1031 has rows longer than a tile, the last tile shorter than the others.
+// 1 x 5 and 5 x 1 have axes of one value; 2 x 1031 has rows longer than a tile, the last tile shorter than the rest.
 const std::vector<std::vector<std::uint64_t>> kShapes = {
     {},        {1},       {5},         {2500},      {3, 4},       {1, 5},        {5, 1},
     {2, 1031}, {37, 100}, {7, 11, 13}, {3, 2, 700}, {5, 3, 4, 6}, {11, 3, 7, 29}};

@@ -17,7 +17,8 @@ Grid small_grid();
 /// The same with `sizes` values along kappa, tau_i, delta, tau_f.
 Grid grid_of(const std::vector<std::uint64_t>& sizes, Precision precision = Precision::real64);
 
-/// Different for every setting and measure; every seventh setting is unstable, NaN in all measures.
+/// Different for every setting and measure, the same on every machine; every seventh setting is unstable, NaN in all
+/// measures.
 double value(Measure measure, std::uint64_t setting);
 Status status(std::uint64_t setting);
 

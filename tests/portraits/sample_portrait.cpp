@@ -1,9 +1,12 @@
-/// sample_portrait write SIZES FILE   a sample portrait; SIZES as 3,4 or `small` or `single`
-/// sample_portrait verify FILE        prints every dataset with its digest
+/// sample_portrait write SIZES FILE     a sample portrait; SIZES as 3,4 or `small` or `none`
+/// sample_portrait replace SIZES FILE   the same, in the place of an existing file
+/// sample_portrait verify FILE          prints every dataset with its digest
 /// For the tests that run programs. Exit codes are those of `portrait`.
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,15 +20,22 @@ portrait::Grid grid_named(const std::string& name) {
   if (name == "small") return portrait::sample::small_grid();
   if (name == "none") return portrait::sample::grid_of({});
   std::vector<std::uint64_t> sizes;
-  for (std::size_t at = 0; at < name.size();
-       at = name.find(',', at) == std::string::npos ? name.size() : name.find(',', at) + 1)
-    sizes.push_back(std::stoull(name.substr(at)));
+  std::istringstream stream(name);
+  for (std::string size; std::getline(stream, size, ',');) sizes.push_back(std::stoull(size));
   return portrait::sample::grid_of(sizes);
+}
+
+void write(const portrait::Grid& grid, const std::string& path, portrait::Existing existing) {
+  portrait::sample::write(path, grid, portrait::sample::tiles_in_order(grid), existing);
 }
 
 int run(const std::vector<std::string>& words) {
   if (words.size() == 3 && words[0] == "write") {
-    portrait::sample::write(words[2], grid_named(words[1]));
+    write(grid_named(words[1]), words[2], portrait::Existing::refuse);
+    return 0;
+  }
+  if (words.size() == 3 && words[0] == "replace") {
+    write(grid_named(words[1]), words[2], portrait::Existing::replace);
     return 0;
   }
   if (words.size() == 2 && words[0] == "verify") {
@@ -33,7 +43,7 @@ int run(const std::vector<std::string>& words) {
       fmt::print("{} {}\n", dataset.digest, dataset.name);
     return 0;
   }
-  throw portrait::InputError("usage: sample_portrait write SIZES FILE | sample_portrait verify FILE");
+  throw portrait::InputError("usage: sample_portrait write|replace SIZES FILE, or sample_portrait verify FILE");
 }
 
 int code_of(std::exception_ptr thrown) {
