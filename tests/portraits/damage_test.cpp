@@ -64,6 +64,23 @@ TEST_F(Damage, FlippedBytes) {
   EXPECT_GT(found, tried / 4) << "a flipped byte of values must be found";
 }
 
+// HDF5 gives its index of chunks no checksum, believes the lengths and filters that stand there, and reads beyond the end
+// of a chunk whose filter was left out.
+TEST_F(Damage, FlippedBytesOfTheChunkIndex) {
+  const std::string node = "TREE";
+  int nodes = 0, refused = 0;
+  for (std::size_t at = whole_.find(node); at != std::string::npos; at = whole_.find(node, at + 1), ++nodes)
+    for (std::size_t offset = 0; offset < 150; ++offset) {
+      std::string damaged = whole_;
+      damaged[at + offset] = static_cast<char>(damaged[at + offset] ^ (offset % 3 == 0 ? 0xff : 1 << offset % 8));
+      const std::optional<std::string> read = read_damaged(damaged);
+      EXPECT_TRUE(!read || *read == content_) << "byte " << at + offset;
+      refused += read ? 0 : 1;
+    }
+  EXPECT_EQ(nodes, 4) << "one for each column";
+  EXPECT_GT(refused, 50);
+}
+
 TEST_F(Damage, TruncatedFiles) {
   for (std::size_t length = 0; length < whole_.size(); length += 97)
     EXPECT_FALSE(read_damaged(whole_.substr(0, length))) << length << " bytes of " << whole_.size();
