@@ -1,7 +1,6 @@
 /// A grid: everything that says which loops a sweep simulates and what it keeps of them.
 ///
-/// Settings are numbered 0 .. setting_count - 1, the last axis fastest (row-major), as the datasets of a
-/// portrait are.
+/// Settings are numbered 0 .. setting_count - 1, the last axis fastest (row-major), as in a portrait.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +27,10 @@ struct Grid {
   LoopFamily family;
   Horizon horizon;
   Precision precision = Precision::real64;
-  std::vector<Measure> measures;  ///< kept ones, in catalogue order
-  std::vector<Axis> axes;         ///< in the order of the grid file; a single setting has none
-  std::vector<FixedParameter>
-      fixed;         ///< every parameter of the family that is no axis; either delta or tau_d
-  std::string text;  ///< the grid file, byte for byte
+  std::vector<Measure> measures;      ///< kept ones, in catalogue order
+  std::vector<Axis> axes;             ///< in the order of the grid file; a single setting has none
+  std::vector<FixedParameter> fixed;  ///< the family's other parameters, in order; either delta or tau_d
+  std::string text;                   ///< the grid file, byte for byte
 };
 
 /// Product of the axes' sizes; 1 for a grid without axes. REQUIRES: below 2^63, which the reader has checked.
@@ -41,7 +39,10 @@ std::uint64_t setting_count(const Grid& grid);
 /// Index along each axis of setting `number`.
 std::vector<std::uint64_t> coordinates(const Grid& grid, std::uint64_t number);
 
-/// The setting at these coordinates: fixed values, then axes, tau_d last since it needs kappa.
+/// The setting with these values along the axes: fixed values, then axes, tau_d last since it needs kappa.
+Setting setting_with(const Grid& grid, const std::vector<double>& values);
+
+/// The setting at these coordinates.
 Setting setting_at(const Grid& grid, const std::vector<std::uint64_t>& coordinates);
 Setting setting_at(const Grid& grid, std::uint64_t number);
 

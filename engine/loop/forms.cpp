@@ -1,6 +1,7 @@
 #include "engine/loop/forms.h"
 
 #include <cmath>
+#include <limits>
 
 namespace portrait {
 
@@ -9,7 +10,9 @@ ParallelForm parallel(const StandardForm& form) {
 }
 
 StandardForm standard(const ParallelForm& form) {
-  return {.Kc = form.Kp, .Ti = form.Kp / form.Ki, .TD = form.Kd / form.Kp};
+  // A quotient by 0 would take its sign from Kp, or from the zero.
+  const double Ti = form.Ki == 0 ? std::numeric_limits<double>::infinity() : form.Kp / form.Ki;
+  return {.Kc = form.Kp, .Ti = Ti, .TD = form.Kd / form.Kp};
 }
 
 StandardForm standard(const SeriesForm& form) {

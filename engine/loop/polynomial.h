@@ -14,8 +14,8 @@ Polynomial difference(const Polynomial& p, const Polynomial& q);
 
 /// The points x > 0 at which p changes sign, increasing.
 /// method    between two neighbouring stationary points p is monotonic: the roots of p' separate those of p
-/// accuracy  half a unit in the last place of log x, as far as p can be evaluated; a root of even order is no
-///           sign change and is left out
+/// accuracy  a few units in the last place, as far as p can be evaluated: tests/engine/loop/polynomial_test.cpp;
+///           a root of even order is no sign change and is left out
 std::vector<double> positive_sign_changes(const Polynomial& p);
 
 }  // namespace portrait

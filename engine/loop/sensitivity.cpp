@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
 
 #include "engine/base/check.h"
 
@@ -10,13 +11,57 @@ namespace {
 
 enum class Function { sensitivity, complementary };
 
+/// Frequencies a <= omega <= b, 0 <= a < b <= inf, on which the function is nowhere above `bound`.
 struct Interval {
-  double a, b;  ///< 0 <= a < b <= inf
+  double a, b, bound;
+  bool operator<(const Interval& other) const { return bound < other.bound; }
 };
 
-struct Range {
-  double low, high;
+/// Bounds of a function's magnitude and of its first two derivatives over an interval.
+struct Bounds {
+  double zeroth, first, second;
 };
+
+Bounds product(const Bounds& f, const Bounds& g) {
+  return {f.zeroth * g.zeroth, f.first * g.zeroth + f.zeroth * g.first,
+          f.second * g.zeroth + 2 * f.first * g.first + f.zeroth * g.second};
+}
+
+/// 1/f, with |f| >= least.
+Bounds reciprocal(const Bounds& f, double least) {
+  const double rate = f.first / least;
+  return {1 / least, rate / least, (f.second / least + 2 * rate * rate) / least};
+}
+
+/// N(jw), a <= w <= b.
+Bounds numerator_bounds(const OpenLoop& loop, double a, double b) {
+  const auto& [n0, n1, n2] = loop.numerator;
+  const double real = std::max(std::abs(n0 - n2 * a * a), std::abs(n0 - n2 * b * b));
+  return {std::hypot(real, n1 * b), std::hypot(n1, 2 * n2 * b), 2 * n2};
+}
+
+/// D(jw): every factor's magnitude grows with w, and its slope is constant.
+Bounds denominator_bounds(const OpenLoop& loop, double b) {
+  Bounds D{1, 0, 0};
+  for (int i = 0; i < loop.integrators; ++i) D = product(D, {b, 1, 0});
+  for (const double T : loop.lags) D = product(D, {std::hypot(1, T * b), T, 0});
+  return D;
+}
+
+double least_denominator(const OpenLoop& loop, double a) {
+  double least = std::pow(a, loop.integrators);
+  for (const double T : loop.lags) least *= std::hypot(1, T * a);
+  return least;
+}
+
+double least_numerator(const OpenLoop& loop, double a, double b, double steepest) {
+  const auto& [n0, n1, n2] = loop.numerator;
+  const double middle = 0.5 * (a + b);
+  return std::hypot(n0 - n2 * middle * middle, n1 * middle) - steepest * 0.5 * (b - a);
+}
+
+/// e^{jw} and e^{-jw}
+constexpr Bounds kTurn{1, 1, 1};
 
 class PeakSearch {
  public:
@@ -25,93 +70,74 @@ class PeakSearch {
     offer(limit_at_infinity());
   }
 
+  /// The interval that promises most is cut first, until none promises more than was found.
   Peak find() {
-    std::vector<Interval> open{{0, 1}, {1, kInf}};
-    while (!open.empty()) {
-      const Interval interval = open.back();
-      open.pop_back();
-      examine(interval, open);
+    add(0, 1);
+    add(1, kInf);
+    while (!open_.empty() && promises_more(open_.top().bound)) {
+      const auto [a, b, bound] = open_.top();
+      open_.pop();
+      const double cut = a == 0 ? 0.25 * b : b == kInf ? 4 * a : b > 4 * a ? std::sqrt(a * b) : 0.5 * (a + b);
+      add(a, cut);
+      add(cut, b);
     }
     return best_;
   }
 
  private:
-  void examine(const Interval& interval, std::vector<Interval>& open) {
-    const Range gain = gain_range(interval);
-    if (bound_by_gain(gain) <= best_.value * kSlack) return;
-    if (interval.a == 0 || interval.b > 2 * interval.a) return split(interval, open);
-    const double middle = 0.5 * (interval.a + interval.b);
-    const double distance = std::abs(1.0 + response_at(loop_, middle));
-    const double change = lipschitz(interval, gain) * 0.5 * (interval.b - interval.a);
-    if (change > 0.25 * distance) return split(interval, open);
-    const double bound = power(gain.high) / (distance - change);
-    if (bound <= best_.value * kSlack) return;
-    refine(interval);
+  void add(double a, double b) {
+    const double bound = b == kInf ? bound_beyond(a) : bound_by_taylor(a, b);
+    if (promises_more(bound)) open_.push({a, b, bound});
   }
 
-  static void split(const Interval& interval, std::vector<Interval>& open) {
-    const auto [a, b] = interval;
-    const double cut = a == 0 ? 0.25 * b : b == kInf ? 4 * a : b > 4 * a ? std::sqrt(a * b) : 0.5 * (a + b);
-    if (a == 0 && cut < kLowest) return;
-    open.push_back({cut, b});
-    open.push_back({a, cut});
+  bool promises_more(double bound) const { return bound > best_.value * (1 + kTolerance); }
+
+  void offer(const Peak& peak) {
+    if (peak.value > best_.value) best_ = peak;
   }
 
-  /// The function has at most one peak in an interval in which 1 + L turns so little.
-  void refine(Interval interval) {
-    offer({at(interval.a), interval.a});
-    offer({at(interval.b), interval.b});
-    if (slope(interval.a) <= 0 || slope(interval.b) >= 0) return;
-    for (int i = 0; i < 60 && interval.b > interval.a; ++i) {
-      const double middle = 0.5 * (interval.a + interval.b);
-      (slope(middle) > 0 ? interval.a : interval.b) = middle;
-    }
-    offer({at(interval.a), interval.a});
+  /// Over all omega >= a, from |1 + L| >= 1 - |L|.
+  double bound_beyond(double a) const {
+    double gain = std::max(gain_at(loop_, a), high_frequency_gain(loop_));
+    for (const double omega : extremes_)
+      if (omega > a) gain = std::max(gain, gain_at(loop_, omega));
+    return gain < 1 ? power(gain) / (1 - gain) : kInf;
   }
 
-  double at(double omega) const {
-    const std::complex<double> L = response_at(loop_, omega);
-    return power(std::abs(L)) / std::abs(1.0 + L);
+  /// S = 1/(1 + L) = M/(1 + M) and T = L/(1 + L) = 1/(1 + M), M = 1/L: with X the smaller one of L and M, both
+  /// have the slopes F' = -+X'/(1 + X)^2, F'' = -+X''/(1 + X)^2 +- 2 X'^2/(1 + X)^3, and
+  /// |F(m + x)| <= |F(m) + F'(m) x| + max|F''| x^2/2 about the middle m.
+  double bound_by_taylor(double a, double b) {
+    const double middle = 0.5 * (a + b), reach = 0.5 * (b - a);
+    const std::complex<double> L = response_at(loop_, middle);
+    const bool small = std::abs(L) < 1;
+    const std::complex<double> X = small ? L : 1.0 / L, near = 1.0 + X;
+    const bool one_over = small == (function_ == Function::sensitivity);
+    const std::complex<double> F = (one_over ? 1.0 : X) / near;
+    offer({std::abs(F), middle});
+
+    const Bounds most = small ? gain_bounds(a, b) : inverse_gain_bounds(a, b);
+    const double nearest = std::max(std::abs(near) - most.first * reach, 1 - most.zeroth);
+    if (!(nearest > 0)) return kInf;
+    const std::complex<double> step = reach * log_slope_at(loop_, middle) * X / (near * near);
+    const double curved = (most.second + 2 * most.first * most.first / nearest) / (nearest * nearest);
+    const double fine = std::max(std::abs(F + step), std::abs(F - step)) + 0.5 * curved * reach * reach;
+    return std::min((one_over ? 1 : most.zeroth) / nearest, fine);
   }
 
-  /// Sign of d/dw log of the function: d/dw log L = l gives Re(-l L/(1 + L)) and Re(l/(1 + L)).
-  double slope(double omega) const {
-    const std::complex<double> L = response_at(loop_, omega), l = log_slope_at(loop_, omega);
-    return function_ == Function::sensitivity ? -(l * L / (1.0 + L)).real() : (l / (1.0 + L)).real();
+  Bounds gain_bounds(double a, double b) const {
+    const Bounds one_over_D = reciprocal(denominator_bounds(loop_, b), least_denominator(loop_, a));
+    return product(product(numerator_bounds(loop_, a, b), kTurn), one_over_D);
+  }
+
+  Bounds inverse_gain_bounds(double a, double b) const {
+    const Bounds N = numerator_bounds(loop_, a, b);
+    const double least = least_numerator(loop_, a, b, N.first);
+    if (!(least > 0)) return {kInf, kInf, kInf};
+    return product(product(denominator_bounds(loop_, b), kTurn), reciprocal(N, least));
   }
 
   double power(double gain) const { return function_ == Function::sensitivity ? 1 : gain; }
-
-  /// The function's largest value while |L| stays within a range that does not hold 1.
-  double bound_by_gain(const Range& gain) const {
-    if (gain.high < 1) return power(gain.high) / (1 - gain.high);
-    if (gain.low <= 1) return kInf;
-    return function_ == Function::sensitivity ? 1 / (gain.low - 1) : 1 / (1 - 1 / gain.low);
-  }
-
-  Range gain_range(const Interval& interval) const {
-    const double left = interval.a == 0 ? low_frequency_gain(loop_) : gain_at(loop_, interval.a);
-    const double right = interval.b == kInf ? high_frequency_gain(loop_) : gain_at(loop_, interval.b);
-    Range range{std::min(left, right), std::max(left, right)};
-    for (const double omega : extremes_) {
-      if (omega <= interval.a || omega >= interval.b) continue;
-      const double gain = gain_at(loop_, omega);
-      range = {std::min(range.low, gain), std::max(range.high, gain)};
-    }
-    return range;
-  }
-
-  /// Bound of |dL/dw| = |N' - N (D'/D + 1)| / |D| over the interval: |D| grows and |D'/D| falls with w.
-  double lipschitz(const Interval& interval, const Range& gain) const {
-    const auto& [n0, n1, n2] = loop_.numerator;
-    double denominator = std::pow(interval.a, loop_.integrators);
-    double rate = 1 + loop_.integrators / interval.a;
-    for (const double T : loop_.lags) {
-      denominator *= std::hypot(1, T * interval.a);
-      rate += T / std::hypot(1, T * interval.a);
-    }
-    return std::hypot(n1, 2 * n2 * interval.b) / denominator + gain.high * rate;
-  }
 
   Peak limit_at_zero() const {
     const double gain = low_frequency_gain(loop_);
@@ -124,18 +150,13 @@ class PeakSearch {
     return {power(gain) / (1 - gain), kInf};
   }
 
-  void offer(const Peak& peak) {
-    if (peak.value > best_.value) best_ = peak;
-  }
-
-  static constexpr double kSlack = 1 + 1e-12;
-  static constexpr double kLowest =
-      1e-30;  ///< lower frequencies differ from the limit w -> 0 by less than rounding
+  static constexpr double kTolerance = 2e-11;
 
   const OpenLoop& loop_;
   Function function_;
   std::vector<double> extremes_;
   Peak best_;
+  std::priority_queue<Interval> open_;
 };
 
 }  // namespace

@@ -9,14 +9,17 @@ namespace portrait {
 
 int unstable_roots(const OpenLoop& loop) {
   PORTRAIT_CHECK(high_frequency_gain(loop) < 1);
-  bool above = low_frequency_gain(loop) > 1;
+  // |L| ends below 1: seen from the highest crossover down, it falls and rises by turns.
+  const std::vector<double> crossovers = gain_crossovers(loop);
+  bool falls = true;
   int turns = 0;
-  for (const double omega : gain_crossovers(loop)) {
-    const int turn = static_cast<int>(std::lround(phase_at(loop, omega) / (2 * std::numbers::pi)));
-    turns += above ? turn : -turn;
-    above = !above;
+  for (auto omega = crossovers.rbegin(); omega != crossovers.rend(); ++omega) {
+    const int turn = static_cast<int>(std::lround(phase_at(loop, *omega) / (2 * std::numbers::pi)));
+    turns += falls ? turn : -turn;
+    falls = !falls;
   }
-  PORTRAIT_CHECK(!above);
+  const double at_rest = low_frequency_gain(loop);
+  PORTRAIT_CHECK(at_rest == 1 || falls == (at_rest < 1));
   return -2 * turns;
 }
 

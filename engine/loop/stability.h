@@ -10,8 +10,8 @@
 ///
 /// over the crossovers omega_i, with phi_i the continuous phase of L there and sigma_i = +1 where |L| falls
 /// below 1, -1 where it rises above.
-/// accuracy  right for loops 1e-9 from the boundary on either side, by kappa:
-///           tests/engine/loop/stability_test.cpp
+/// accuracy  right for loops 1e-9 from the boundary on either side, by kappa, where that much gain turns the
+///           phase at the crossover by more than rounding does: tests/engine/loop/stability_test.cpp
 /// cost      a few microseconds
 #pragma once
 

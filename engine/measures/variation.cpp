@@ -34,6 +34,7 @@ double shape_deviation(std::span<const double> x, double x_infinity, int m) {
   std::vector<Side> reached(static_cast<std::size_t>(m) + 1);
 
   for (const double extreme : x.subspan(1)) {
+    if (extreme == x_infinity) continue;  // on neither side: no pulse
     const bool above = extreme > x_infinity;
     const double to_end = std::abs(extreme - x_infinity);
     for (std::size_t k = reached.size() - 1; k >= 1; --k) {

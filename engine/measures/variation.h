@@ -7,6 +7,7 @@
 ///     TVm   TV less the variation of the best m-pulse shape: x(0-), at most m of the turning points, in order
 ///           of time and alternately above and below x(inf), then x(inf)                 [Huba2022 (2), (3), (5)]
 ///
+/// A point at x(inf) itself lies on neither side and is no extreme.
 /// TVm counts the leg from the horizon to x(inf) as part of the signal: without it a monotonic response that
 /// is cut off early would have a TV0 below 0.
 /// accuracy  sums of differences of the points given; TVm >= 0 up to rounding:

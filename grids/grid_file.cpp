@@ -1,0 +1,142 @@
+#include "grids/grid_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/base/words.h"
+#include "grids/document.h"
+#include "grids/parameter_entries.h"
+#include "grids/toml.h"
+
+namespace portrait {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+/// The thing that `named` knows by this word, or an error that names the nearest word.
+template <typename Named>
+auto thing_in(std::string_view noun, const Value& value, Named named, const Words& known) {
+  const std::string& word = text_in(noun, value);
+  if (const auto thing = named(word)) return *thing;
+  throw InputError(value.place, fmt::format("unknown {} {}{}", noun, in_quotes(word), suggestion(word, known)));
+}
+
+Plant plant_in(const Value& root) {
+  const Entry& entry = need(root, "plant", "one of " + joined({kPlantNames.begin(), kPlantNames.end()}));
+  return thing_in("plant", entry.value, plant_named, {kPlantNames.begin(), kPlantNames.end()});
+}
+
+int filter_order_in(const Value::Table& root) {
+  const Entry* entry = find(root, "n");
+  if (!entry) return 0;
+  const std::int64_t n = whole_number_in("n", entry->value);
+  if (0 <= n && n <= kMaxFilterOrder) return static_cast<int>(n);
+  throw InputError(entry->value.place, fmt::format("\"n\" must be 0 .. {} (it is {})", kMaxFilterOrder, n));
+}
+
+Prefilter prefilter_in(const Value::Table& root, int n) {
+  const Entry* entry = find(root, "prefilter");
+  if (!entry) return usual_prefilter(n);
+  return thing_in("prefilter", entry->value, prefilter_named, {kPrefilterNames.begin(), kPrefilterNames.end()});
+}
+
+LoopFamily family_in(const Value& root) {
+  const auto& table = std::get<Value::Table>(root.content);
+  const Plant plant = plant_in(root);
+  const int n = filter_order_in(table);
+  return {plant, n, prefilter_in(table, n)};
+}
+
+Horizon horizon_in(const Value& root) {
+  const Value& value = need(root, "horizon", "a number of dead times, or \"auto\"").value;
+  const auto automatic = [](std::string_view word) {
+    return word == "auto" ? std::optional(Horizon::until_settled()) : std::nullopt;
+  };
+  if (std::holds_alternative<std::string>(value.content)) return thing_in("horizon", value, automatic, {"auto"});
+  if (!is_number(value)) throw_wrong_kind("horizon", value, "a number or \"auto\"");
+  const double dead_times = number_in("horizon", value);
+  if (std::isfinite(dead_times) && dead_times > 0) return Horizon::fixed(dead_times);
+  throw InputError(value.place, fmt::format("\"horizon\" must be finite and above 0, or \"auto\" (it is {})",
+                                            number_text(dead_times)));
+}
+
+Precision precision_in(const Value::Table& root) {
+  const auto named = [](std::string_view word) -> std::optional<Precision> {
+    if (word == "double") return Precision::real64;
+    if (word == "single") return Precision::real32;
+    return std::nullopt;
+  };
+  const Entry* entry = find(root, "precision");
+  return entry ? thing_in("precision", entry->value, named, {"double", "single"}) : Precision::real64;
+}
+
+Words measure_names() {
+  Words names;
+  for (const Measure measure : all_measures()) names.push_back(to_string(measure));
+  return names;
+}
+
+std::vector<Measure> measures_in(const Value::Table& root) {
+  constexpr auto kAll = all_measures();
+  const Entry* entry = find(root, "measures");
+  if (!entry) return {kAll.begin(), kAll.end()};
+  std::vector<Measure> kept;
+  for (const Value& item : list_in("measures", entry->value)) {
+    kept.push_back(thing_in("measure", item, measure_named, measure_names()));
+    if (std::count(kept.begin(), kept.end(), kept.back()) > 1)
+      throw InputError(item.place, fmt::format("measure \"{}\" stands twice in the list", to_string(kept.back())));
+  }
+  if (kept.empty())
+    throw InputError(entry->value.place, "\"measures\" is empty: leave the key out to keep every measure");
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+std::string title_in(const Value::Table& root) {
+  const Entry* entry = find(root, "title");
+  return entry ? text_in("title", entry->value) : std::string();
+}
+
+/// In C, since a stream does not say why it failed.
+std::string read_text(const std::filesystem::path& path) {
+  const auto fail = [&] {
+    throw InputError({path.string()}, fmt::format("cannot be read: {}", std::strerror(errno)));
+  };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) fail();
+  std::string text;
+  std::array<char, 65536> piece;
+  while (const std::size_t size = std::fread(piece.data(), 1, piece.size(), file.get()))
+    text.append(piece.data(), size);
+  if (std::ferror(file.get())) fail();
+  return text;
+}
+
+}  // namespace
+
+Grid parse_grid(std::string text, std::string source_name) {
+  const Value root = parse_toml(text, source_name);
+  const auto& table = std::get<Value::Table>(root.content);
+  allow_only(table, {"title", "plant", "n", "prefilter", "horizon", "precision", "measures", "parameters"});
+  Grid grid;
+  grid.title = title_in(table);
+  grid.family = family_in(root);
+  grid.horizon = horizon_in(root);
+  grid.precision = precision_in(table);
+  grid.measures = measures_in(table);
+  read_parameters(need(root, "parameters", "the table of fixed values and axes").value, grid);
+  grid.text = std::move(text);
+  return grid;
+}
+
+Grid read_grid(const std::filesystem::path& path) { return parse_grid(read_text(path), path.string()); }
+
+}  // namespace portrait

@@ -1,0 +1,68 @@
+#include "engine/measures/catalogue.h"
+
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+namespace portrait {
+namespace {
+
+/// Names that users, scripts and stored portraits rely on: none may change or leave.
+constexpr std::string_view kPublicNames[] = {
+    "IAE_w",  "IAE_d",  "TV_yw",   "TV_uw",   "TV_yd",   "TV_ud",   "TV0_yw", "TV1_yw",
+    "TV2_yw", "TV0_uw", "TV1_uw",  "TV2_uw",  "TV0_yd",  "TV1_yd",  "TV2_yd", "TV0_ud",
+    "TV1_ud", "TV2_ud", "y_max_w", "u_max_w", "y_max_d", "u_max_d", "Ms",     "Mt",
+};
+
+TEST(Catalogue, HoldsThePublicNames) {
+  for (const auto name : kPublicNames) EXPECT_TRUE(measure_named(name)) << name;
+}
+
+TEST(Catalogue, NamesAreUniqueAndLeadBack) {
+  std::set<std::string_view> seen;
+  for (const Measure m : all_measures()) {
+    EXPECT_TRUE(seen.insert(to_string(m)).second) << to_string(m);
+    EXPECT_EQ(measure_named(to_string(m)), m);
+  }
+  EXPECT_EQ(seen.size(), kMeasureCount);
+}
+
+TEST(Catalogue, KnowsNoOtherName) {
+  for (const char* name : {"", "iae_w", "IAE", "TV3_uw", "IAE_w "}) EXPECT_FALSE(measure_named(name)) << name;
+}
+
+TEST(Catalogue, EveryMeasureIsExplained) {
+  for (const Measure m : all_measures()) {
+    EXPECT_FALSE(info(m).long_name.empty());
+    EXPECT_FALSE(info(m).definition.empty());
+  }
+}
+
+TEST(Catalogue, TheStepIsTheNamesLastLetter) {
+  for (const Measure m : all_measures()) {
+    const std::string_view name = to_string(m);
+    const bool of_a_step = name.find('_') != std::string_view::npos;
+    EXPECT_EQ(info(m).step, of_a_step ? name.back() : '-') << name;
+  }
+}
+
+TEST(Catalogue, TheUnitIsThatOfTheSignal) {
+  const auto unit = [](std::string_view name) { return info(*measure_named(name)).unit; };
+  for (const char* name : {"IAE_w", "IAE_d"}) EXPECT_EQ(unit(name), Unit::output_time) << name;
+  for (const char* name : {"TV_yw", "TV2_yd", "y_max_w", "y_max_d"}) EXPECT_EQ(unit(name), Unit::output) << name;
+  for (const char* name : {"TV_uw", "TV2_ud", "u_max_w", "u_max_d"}) EXPECT_EQ(unit(name), Unit::input) << name;
+  for (const char* name : {"Ms", "Mt"}) EXPECT_EQ(unit(name), Unit::one) << name;
+}
+
+TEST(MeasureRow, StartsAsNaN) {
+  MeasureRow row;
+  for (const Measure m : all_measures()) EXPECT_TRUE(std::isnan(row[m]));
+  row[Measure::Ms] = 1.5;
+  EXPECT_EQ(row[Measure::Ms], 1.5);
+  EXPECT_TRUE(std::isnan(row[Measure::Mt]));
+}
+
+}  // namespace
+}  // namespace portrait

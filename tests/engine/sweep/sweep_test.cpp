@@ -1,0 +1,141 @@
+#include "engine/sweep/sweep.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/reference/measure.h"
+#include "tests/engine/sweep/small_sweep.h"
+
+namespace portrait {
+namespace {
+
+template <typename Action>
+std::string message_of(Action action) {
+  try {
+    action();
+  } catch (const std::exception& failure) {
+    return failure.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(Sweep, StoresWhatTheReferenceMeasures) {
+  const std::vector<Setting> settings = small_grid();
+  Collected collected(every_measure());
+  const SweepJob job = job_over(settings, 7, 1, collected);
+  const SweepOutcome outcome = sweep(job);
+
+  MeasureColumns expected(every_measure(), settings.size());
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const reference::Measured measured = reference::measure({job.family, settings[i]}, job.horizon);
+    expected.set(i, measured.status, measured.measures);
+  }
+  expect_same_bits(collected.columns(), expected);
+  EXPECT_EQ(outcome.settings_measured, settings.size());
+  EXPECT_EQ(outcome.tiles_stored, job.tile_count);
+  EXPECT_TRUE(outcome.complete);
+  EXPECT_EQ(outcome.threads, 1);
+  EXPECT_GT(outcome.seconds, 0);
+}
+
+TEST(Sweep, KeepsTheMeasuresAskedFor) {
+  const std::vector<Setting> settings = small_grid();
+  Collected all(every_measure()), some({Measure::IAE_d, Measure::TV2_uw, Measure::Mt});
+  sweep(job_over(settings, 16, 1, all));
+  sweep(job_over(settings, 16, 1, some));
+  const auto column = [](const MeasureColumns& columns, Measure m) {
+    const auto at = std::find(columns.kept.begin(), columns.kept.end(), m) - columns.kept.begin();
+    return columns.values[static_cast<std::size_t>(at)];
+  };
+  MeasureColumns expected(some.columns().kept, settings.size());
+  expected.status = all.columns().status;
+  for (std::size_t k = 0; k < expected.kept.size(); ++k)
+    expected.values[k] = column(all.columns(), expected.kept[k]);
+  expect_same_bits(some.columns(), expected);
+}
+
+TEST(Sweep, AnUnstableSettingIsNaNAndSaysSo) {
+  const std::vector<Setting> settings = {{.kappa = 0.1248, .tau_i = 10.324, .delta = 0.5045},
+                                         {.kappa = 0.9, .tau_i = 1, .delta = 0.5}};
+  Collected collected(every_measure());
+  EXPECT_TRUE(sweep(job_over(settings, 2, 1, collected)).complete);
+  const MeasureColumns& columns = collected.columns();
+  EXPECT_NE(columns.status[0], Status::unstable);
+  EXPECT_EQ(columns.status[1], Status::unstable);
+  for (std::size_t k = 0; k < columns.kept.size(); ++k) {
+    EXPECT_FALSE(std::isnan(columns.values[k][0])) << to_string(columns.kept[k]);
+    EXPECT_TRUE(std::isnan(columns.values[k][1])) << to_string(columns.kept[k]);
+  }
+}
+
+/// A filter without a time constant breaks the sweep's own REQUIRES, which the simulation checks.
+TEST(Sweep, AFailingSettingNamesTheCommandThatReproducesIt) {
+  std::vector<Setting> settings(5, {.kappa = 0.125, .tau_i = 10, .delta = 0.5, .tau_f = 0.1});
+  settings[3].tau_f = 0;
+  Collected collected(every_measure());
+  SweepJob job = job_over(settings, 2, 1, collected);
+  job.family.n = 1;
+  const std::string message = message_of([&] { sweep(job); });
+  const std::size_t second_line = message.find('\n');
+  ASSERT_NE(second_line, std::string::npos) << message;
+  EXPECT_NE(message.substr(0, second_line).find("check failed: !why_invalid(loop)"), std::string::npos);
+  EXPECT_EQ(message.substr(second_line + 1),
+            "reproduce: portrait simulate --plant dipdt --n 1 --prefilter pi --kappa 0.125 --tau-i 10 "
+            "--delta 0.5 --tau-f 0 --b 0");
+  EXPECT_EQ(collected.tiles(), 1u);
+}
+
+TEST(Sweep, AFailureOfTheStoreIsRethrownAsItIs) {
+  Collected collected(every_measure());
+  SweepJob job = job_over(small_grid(), 7, 1, collected);
+  job.store = [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); };
+  EXPECT_THROW(sweep(job), std::out_of_range);
+  EXPECT_EQ(message_of([&] { sweep(job); }), "disk full");
+}
+
+TEST(Sweep, AFailureToMakeSettingsIsRethrown) {
+  Collected collected(every_measure());
+  SweepJob job = job_over(small_grid(), 7, 1, collected);
+  job.settings_of = [](std::uint64_t) -> std::vector<Setting> { throw std::out_of_range("no such tile"); };
+  EXPECT_EQ(message_of([&] { sweep(job); }), "no such tile");
+}
+
+TEST(Sweep, StopsAfterTheSliceInHand) {
+  Collected collected(every_measure());
+  SweepJob job = job_over(small_grid(), 7, 1, collected);
+  std::atomic<bool> stop = false;
+  job.stop = &stop;
+  job.store = [&](std::uint64_t tile, const MeasureColumns& columns) {
+    collected.store(tile, columns);
+    if (tile == 2) stop = true;
+  };
+  const SweepOutcome outcome = sweep(job);
+  EXPECT_FALSE(outcome.complete);
+  EXPECT_EQ(outcome.tiles_stored, 3u);
+  EXPECT_EQ(outcome.settings_measured, 21u);
+  EXPECT_EQ(collected.tiles(), 3u);
+}
+
+TEST(Sweep, ReportsItsProgress) {
+  Collected collected(every_measure());
+  SweepJob job = job_over(small_grid(), 7, 1, collected);
+  std::vector<std::uint64_t> reports;
+  job.progress = [&](std::uint64_t measured) { reports.push_back(measured); };
+  sweep(job);
+  EXPECT_EQ(reports, (std::vector<std::uint64_t>{7, 14, 21, 28, 35, 42, 49, 56, 60}));
+}
+
+TEST(Sweep, OfNoTilesIsComplete) {
+  Collected collected(every_measure());
+  const SweepOutcome outcome = sweep(job_over({}, 7, 1, collected));
+  EXPECT_TRUE(outcome.complete);
+  EXPECT_EQ(outcome.tiles_stored, 0u);
+}
+
+TEST(Sweep, SaysHowItMeasures) { EXPECT_EQ(sweep_method(), "reference"); }
+
+}  // namespace
+}  // namespace portrait

@@ -1,0 +1,135 @@
+#include "engine/sweep/tile_queue.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/sweep/numbered_tiles.h"
+
+namespace portrait {
+namespace {
+
+using Numbers = std::vector<std::uint64_t>;
+
+std::vector<Slice> all_slices(TileQueue& queue) {
+  std::vector<Slice> slices;
+  while (const auto slice = queue.next()) slices.push_back(*slice);
+  return slices;
+}
+
+void measure_and_finish(TileQueue& queue, const Slice& slice) {
+  NumberedTiles::measure(slice);
+  queue.finish(slice);
+}
+
+Numbers first_numbers(std::size_t count) {
+  Numbers numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+TEST(TileQueue, CutsTilesIntoSlicesInOrder) {
+  NumberedTiles tiles({70, 5, 64});
+  TileQueue queue = tiles.queue();
+  std::vector<std::array<std::size_t, 3>> cuts;
+  for (const Slice& slice : all_slices(queue)) cuts.push_back({slice.tile->number, slice.first, slice.count});
+  EXPECT_EQ(cuts, (std::vector<std::array<std::size_t, 3>>{
+                      {0, 0, 32}, {0, 32, 32}, {0, 64, 6}, {1, 0, 5}, {2, 0, 32}, {2, 32, 32}}));
+  EXPECT_FALSE(queue.next());
+}
+
+TEST(TileQueue, MakesATileWhenItsFirstSliceIsWanted) {
+  NumberedTiles tiles({33, 1});
+  TileQueue queue = tiles.queue();
+  EXPECT_EQ(tiles.made, Numbers{});
+  queue.next();
+  queue.next();
+  EXPECT_EQ(tiles.made, Numbers{0});
+  queue.next();
+  EXPECT_EQ(tiles.made, (Numbers{0, 1}));
+}
+
+TEST(TileQueue, ATileStartsEmpty) {
+  NumberedTiles tiles({2});
+  TileQueue queue = tiles.queue();
+  const auto slice = queue.next();
+  EXPECT_EQ(slice->tile->columns.status, (std::vector{Status::not_computed, Status::not_computed}));
+  EXPECT_TRUE(std::isnan(slice->tile->columns.values[0][0]));
+}
+
+TEST(TileQueue, StoresATileWhenItsLastSliceIsBack) {
+  NumberedTiles tiles({40, 1});
+  TileQueue queue = tiles.queue();
+  const std::vector<Slice> slices = all_slices(queue);
+  measure_and_finish(queue, slices[1]);
+  EXPECT_EQ(tiles.stored, Numbers{});
+  EXPECT_EQ(queue.settings_measured(), 8u);
+  measure_and_finish(queue, slices[0]);
+  EXPECT_EQ(tiles.stored, Numbers{0});
+  EXPECT_EQ(queue.settings_measured(), 40u);
+  EXPECT_EQ(queue.tiles_stored(), 1u);
+}
+
+TEST(TileQueue, ATileWaitsForThoseBeforeIt) {
+  NumberedTiles tiles({1, 1, 1, 1});
+  TileQueue queue = tiles.queue();
+  const std::vector<Slice> slices = all_slices(queue);
+  for (const std::size_t late : {2u, 1u}) measure_and_finish(queue, slices[late]);
+  EXPECT_EQ(tiles.stored, Numbers{});
+  measure_and_finish(queue, slices[0]);
+  EXPECT_EQ(tiles.stored, (Numbers{0, 1, 2}));
+  measure_and_finish(queue, slices[3]);
+  EXPECT_EQ(tiles.stored, (Numbers{0, 1, 2, 3}));
+}
+
+TEST(TileQueue, StoresInOrderWhateverTheOrderOfTheSlices) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<std::size_t> sizes(1 + random() % 8);
+    for (std::size_t& size : sizes) size = 1 + random() % 100;
+    NumberedTiles tiles(sizes);
+    TileQueue queue = tiles.queue();
+    std::vector<Slice> slices = all_slices(queue);
+    std::shuffle(slices.begin(), slices.end(), random);
+    for (const Slice& slice : slices) measure_and_finish(queue, slice);
+    ASSERT_EQ(tiles.stored, first_numbers(sizes.size()));
+    ASSERT_EQ(queue.settings_measured(), std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}));
+  }
+}
+
+TEST(TileQueue, AnEmptyTileIsStoredInItsTurn) {
+  NumberedTiles tiles({0, 3, 0});
+  TileQueue queue = tiles.queue();
+  for (const Slice& slice : all_slices(queue)) measure_and_finish(queue, slice);
+  EXPECT_EQ(tiles.stored, (Numbers{0, 1, 2}));
+}
+
+TEST(TileQueue, OfNoTilesHasNothingToDo) {
+  NumberedTiles tiles({});
+  TileQueue queue = tiles.queue();
+  EXPECT_FALSE(queue.next());
+  EXPECT_EQ(queue.tiles_stored(), 0u);
+}
+
+TEST(TileQueue, AStoreThatFailedIsNotCalledAgain) {
+  int calls = 0;
+  TileQueue queue(
+      {}, 3, [](std::uint64_t) { return std::vector<Setting>(1); },
+      [&](std::uint64_t, const MeasureColumns&) {
+        ++calls;
+        throw std::out_of_range("disk full");
+      });
+  const std::vector<Slice> slices = all_slices(queue);
+  EXPECT_THROW(queue.finish(slices[0]), std::out_of_range);
+  EXPECT_NO_THROW(queue.finish(slices[1]));
+  EXPECT_EQ(calls, 1);
+  EXPECT_EQ(queue.tiles_stored(), 0u);
+}
+
+}  // namespace
+}  // namespace portrait

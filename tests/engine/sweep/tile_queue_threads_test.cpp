@@ -1,0 +1,60 @@
+#include <atomic>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/sweep/numbered_tiles.h"
+
+namespace portrait {
+namespace {
+
+/// NumberedTiles itself is not guarded: that the queue calls it by one thread at a time is part of the test, and
+/// the thread sanitizer would see if it did not.
+TEST(TileQueueThreads, StoreEveryTileOnceAndInOrder) {
+  for (const int count : {2, 5}) {
+    std::vector<std::size_t> sizes;
+    for (std::size_t i = 0; i < 300; ++i) sizes.push_back(1 + i * 37 % 90);
+    NumberedTiles tiles(sizes);
+    TileQueue queue = tiles.queue();
+    const auto work = [&] {
+      while (const auto slice = queue.next()) {
+        NumberedTiles::measure(*slice);
+        if (slice->first % 64 == 0) std::this_thread::yield();
+        queue.finish(*slice);
+      }
+    };
+    std::vector<std::thread> threads;
+    for (int i = 0; i < count; ++i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+
+    ASSERT_EQ(tiles.stored.size(), sizes.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) EXPECT_EQ(tiles.stored[i], i);
+    EXPECT_EQ(tiles.made, tiles.stored);
+    EXPECT_EQ(queue.tiles_stored(), sizes.size());
+  }
+}
+
+TEST(TileQueueThreads, CanBeAskedForTheirProgressMeanwhile) {
+  NumberedTiles tiles(std::vector<std::size_t>(100, 40));
+  TileQueue queue = tiles.queue();
+  std::atomic<bool> done = false;
+  std::thread watcher([&] {
+    std::uint64_t last = 0;
+    while (!done) {
+      const std::uint64_t measured = queue.settings_measured();
+      EXPECT_GE(measured, last);
+      EXPECT_LE(queue.tiles_stored(), 100u);
+      last = measured;
+    }
+  });
+  while (const auto slice = queue.next()) {
+    NumberedTiles::measure(*slice);
+    queue.finish(*slice);
+  }
+  done = true;
+  watcher.join();
+  EXPECT_EQ(queue.settings_measured(), 4000u);
+}
+
+}  // namespace
+}  // namespace portrait
