@@ -1,0 +1,124 @@
+// A damaged portrait gives back what was written or one of our errors: never other values, never a crash.
+#include <functional>
+#include <optional>
+
+#include "engine/base/error.h"
+#include "portraits/reader.h"
+#include "portraits/verify.h"
+#include "tests/portraits/content.h"
+#include "tests/portraits/sample.h"
+#include "tests/portraits/scratch.h"
+
+namespace portrait {
+namespace {
+
+class Damage : public ScratchTest {
+ protected:
+  void SetUp() override {
+    ScratchTest::SetUp();
+    sample::write(in("whole.h5"), sample::grid_of({3, 2, 300}));
+    whole_ = bytes_of(in("whole.h5"));
+    content_ = content(in("whole.h5"));
+  }
+
+  /// What a reader makes of the damaged bytes: their content, or nothing when it throws one of our errors.
+  std::optional<std::string> read_damaged(const std::string& bytes) const {
+    put_bytes(in("damaged.h5"), bytes);
+    try {
+      return content(in("damaged.h5"));
+    } catch (const InputError&) {
+    } catch (const StoreError&) {
+    } catch (const IntegrityError&) {
+    }
+    return std::nullopt;
+  }
+
+  bool verifies(const std::string& bytes) const {
+    put_bytes(in("damaged.h5"), bytes);
+    try {
+      verify(in("damaged.h5"));
+      return true;
+    } catch (const InputError&) {
+    } catch (const StoreError&) {
+    } catch (const IntegrityError&) {
+    }
+    return false;
+  }
+
+  std::string whole_;
+  std::string content_;
+};
+
+TEST_F(Damage, FlippedBytes) {
+  int found = 0, tried = 0;
+  // A prime step walks through all fields of the repeated structures.
+  for (std::size_t at = 0; at < whole_.size(); at += 103, ++tried) {
+    std::string damaged = whole_;
+    damaged[at] = static_cast<char>(damaged[at] ^ (tried % 2 == 0 ? 0xff : 1 << tried % 8));
+    const std::optional<std::string> read = read_damaged(damaged);
+    EXPECT_TRUE(!read || *read == content_) << "byte " << at << " of " << whole_.size();
+    EXPECT_LE(verifies(damaged), read.has_value()) << "verify passes what cannot be read: byte " << at;
+    found += read ? 0 : 1;
+  }
+  EXPECT_GT(tried, 400);
+  EXPECT_GT(found, tried / 4) << "a flipped byte of values must be found";
+}
+
+// HDF5 gives its index of chunks no checksum, believes the lengths and filters that stand there, and reads beyond the end
+// of a chunk whose filter was left out.
+TEST_F(Damage, FlippedBytesOfTheChunkIndex) {
+  const std::string node = "TREE";
+  int nodes = 0, refused = 0;
+  for (std::size_t at = whole_.find(node); at != std::string::npos; at = whole_.find(node, at + 1), ++nodes)
+    for (std::size_t offset = 0; offset < 150; ++offset) {
+      std::string damaged = whole_;
+      damaged[at + offset] = static_cast<char>(damaged[at + offset] ^ (offset % 3 == 0 ? 0xff : 1 << offset % 8));
+      const std::optional<std::string> read = read_damaged(damaged);
+      EXPECT_TRUE(!read || *read == content_) << "byte " << at + offset;
+      refused += read ? 0 : 1;
+    }
+  EXPECT_EQ(nodes, 4) << "one for each column";
+  EXPECT_GT(refused, 50);
+}
+
+TEST_F(Damage, TruncatedFiles) {
+  for (std::size_t length = 0; length < whole_.size(); length += 97)
+    EXPECT_FALSE(read_damaged(whole_.substr(0, length))) << length << " bytes of " << whole_.size();
+  EXPECT_FALSE(read_damaged(whole_.substr(0, whole_.size() - 1)));
+}
+
+TEST_F(Damage, BlocksOfZeros) {
+  for (std::size_t at = 0; at + 512 <= whole_.size(); at += 512) {
+    const std::optional<std::string> read = read_damaged(std::string(whole_).replace(at, 512, 512, '\0'));
+    EXPECT_TRUE(!read || *read == content_) << "block at " << at;
+  }
+}
+
+TEST_F(Damage, TruncationIsToldInTheLibrarysWords) {
+  put_bytes(in("damaged.h5"), whole_.substr(0, whole_.size() / 2));
+  const std::string message = message_of<IntegrityError>([&] { PortraitReader portrait(in("damaged.h5")); });
+  EXPECT_EQ(message.rfind(in("damaged.h5").string() + ": cannot open the file: HDF5: truncated file: eof = ", 0),
+            0u)
+      << message;
+}
+
+/// Somewhere in the compressed values of the measures: they are most of the file, and in its middle.
+TEST_F(Damage, DamagedValuesNameTheDatasetAndTheOthersAreStillChecked) {
+  std::string damaged = whole_;
+  const std::size_t middle = whole_.size() / 2;
+  damaged[middle] = static_cast<char>(~damaged[middle]);
+  put_bytes(in("damaged.h5"), damaged);
+  int broken = 0;
+  for (const CheckedDataset& dataset : inspect(in("damaged.h5")).datasets) {
+    if (dataset.problem.empty()) continue;
+    ++broken;
+    EXPECT_EQ(dataset.problem, in("damaged.h5").string() + ": cannot read " + dataset.name +
+                                   ": HDF5: data error detected by Fletcher32 checksum");
+    EXPECT_EQ(message_of<IntegrityError>([&] { verify(in("damaged.h5")); }), dataset.problem);
+  }
+  EXPECT_EQ(broken, 1);
+  EXPECT_EQ(inspect(in("damaged.h5")).datasets.size(), 10u);
+}
+
+}  // namespace
+}  // namespace portrait
