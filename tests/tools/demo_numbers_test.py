@@ -24,6 +24,14 @@ class DemoNumbers(ProgramTest):
         self.assertAlmostEqual(best["measures"]["IAE_w"], 13.998, places=3)
         self.assertAlmostEqual(best["measures"]["IAE_d"], 174.96, places=2)
 
+    def test_count_of_settings_that_had_come_to_rest(self):
+        """167 settings meet (46) when y_d, too, must have come within 0.01 of rest at the horizon."""
+        grid = program.SOURCES / "grids" / "catalog" / "huba2022-43.toml"
+        self.run_program("sweep", grid, "-o", "p.h5", "--quiet")
+        answer = self.run_program("query", "p.h5", "--minimize", "IAE_w + IAE_d", *SHAPES, "--include-not-settled", "--where",
+                                  "TV0_yd - TV_yd <= 0.01", "--json").json
+        self.assertEqual(answer["admissible"], 167)
+
     def test_ms_of_the_series_settings(self):
         for kappa, delta, tau_i, published in ((0.0354, 0.382, 10.74, 1.59), (0.0505, 0.4737, 9.37, 1.80),
                                                (0.0625, 0.5475, 8.64, 2.00)):

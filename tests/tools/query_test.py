@@ -78,7 +78,7 @@ class Query(ProgramTest):
         self.assertEqual((result.code, result.out), (3, ""))
         self.assertRegex(result.err, r"^portrait: no admissible setting: 0 of 27 settings are admissible")
         self.assertRegex(result.err, r"\n  IAE_d <= 1 excludes \d+, the most\n")
-        self.assertRegex(result.err, r"\nleast violation at kappa=.* tau_i=.* delta=.*:\n  IAE_d <= 1: [\d.]+ against 1\n$")
+        self.assertRegex(result.err, r"\nleast violation at kappa=.* tau_i=.* delta=.*:\n  IAE_d <= 1: [\d.]+ against 1\n")
         answer = self.query("--minimize", "IAE_w", "--where", "IAE_d <= 1", "--json")
         self.assertEqual((answer.code, answer.json["optimum"], answer.json["admissible"]), (3, None, 0))
         self.assertEqual(answer.json["least_violation"]["violations"][0]["constraint"], "IAE_d <= 1")

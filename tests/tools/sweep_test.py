@@ -56,14 +56,14 @@ class Sweep(ProgramTest):
         self.assert_fails(self.run_program("sweep", "g.toml", "-o", "g.h5"), 2,
                           'g.toml:7:1: unknown key "kapa" (did you mean "kappa"?)')
         self.assert_fails(self.run_program("sweep", "none.toml", "-o", "g.h5"), 2,
-                          "none.toml: No such file or directory")
+                          "none.toml: cannot be read: No such file or directory")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
 
     def test_output_is_needed(self):
         self.write("g.toml", SMALL_GRID)
         self.assert_fails(self.run_program("sweep", "g.toml"), 2, "-o FILE.h5 is missing: where shall the portrait go?")
         self.assert_fails(self.run_program("sweep", "g.toml", "-o", "no/folder/g.h5"), 2,
-                          "no/folder: no such directory")
+                          "no/folder/g.h5: there is no directory no/folder")
 
     def test_same_values_for_any_number_of_threads(self):
         self.write("g.toml", SMALL_GRID.replace("step = 0.08", "count = 50"))
@@ -101,14 +101,6 @@ class Sweep(ProgramTest):
         sweep.send_signal(signal.SIGCONT)
         sweep.communicate(timeout=60)
         self.assertEqual(sweep.returncode, 130)
-        self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
-
-    def test_a_full_disk_is_reported_and_leaves_nothing(self):
-        self.write("g.toml", LONG_GRID.replace("count = 400", "count = 100"))
-        result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet",
-                                  preexec_fn=lambda: __import__("resource").setrlimit(__import__("resource").RLIMIT_FSIZE, (65536, 65536)) or signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
-        self.assertEqual(result.code, 1)
-        self.assertRegex(result.err, r"^portrait: g\.h5")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
 
     def test_what_a_killed_run_left_is_mentioned(self):
