@@ -16,17 +16,18 @@ namespace portrait::reference {
 
 /// The nodes of a panel on [0, 1] and what belongs to them alone.
 struct Nodes {
-  Eigen::VectorXd at;  ///< c_0 .. c_s
-  Eigen::MatrixXd
-      integration;  ///< s x s: integral from 0 to c_i of the j-th Lagrange polynomial over c_1 .. c_s
-  Eigen::MatrixXd to_series;  ///< (s+1) x (s+1): values at the nodes to Chebyshev coefficients on the panel
+  Eigen::VectorXd at;           ///< c_0 .. c_s
+  Eigen::MatrixXd integration;  ///< s x s: integral from 0 to c_i of the j-th Lagrange polynomial over c_1 .. c_s
+  Eigen::MatrixXd to_series;    ///< (s+1) x (s+1): `PanelValues` to Chebyshev coefficients on the panel
   Eigen::Index stages() const { return integration.rows(); }
 };
 
 /// REQUIRES: 1 <= stages <= 20.
 Nodes radau_nodes(int stages);
 
-/// Values on a panel: a row a node, a column a step (kSetpoint, kDisturbance).
+/// A signal on a panel: row 0 its value at the start, row i what it has gained at c_i; a column a step (kSetpoint,
+/// kDisturbance). Gains keep the digits: a filter with a tiny tau_f takes the slope of y on a tiny panel, and slopes of
+/// values rounded at the size of y cost TV 1e-7 and more.
 using PanelValues = Eigen::Matrix<double, Eigen::Dynamic, kSteps>;
 /// States: a row a state, a column a step.
 using States = Eigen::Matrix<double, Eigen::Dynamic, kSteps>;
@@ -42,15 +43,13 @@ class Panel {
   /// Goes over the panel with both steps side by side. `y`, `y_slope` are given at the s + 1 nodes; `x` is
   /// replaced by the states at the panel's end; z, z' and u are written to `outputs[kZ], outputs[kSlope],
   /// outputs[kU]`.
-  void advance(const PanelValues& y, const PanelValues& y_slope, States& x,
-               PanelValues outputs[kOutputs]) const;
+  void advance(const PanelValues& y, const PanelValues& y_slope, States& x, PanelValues outputs[kOutputs]) const;
 
  private:
   const OpenChain& chain_;
   double length_;
   Eigen::Index stages_;
-  Eigen::MatrixXd from_state_, from_y_, from_y_slope_,
-      from_steps_;  ///< to X(c_1), ..., X(c_s), one below the other
+  Eigen::MatrixXd from_slope_, from_y_, from_y_slope_;  ///< to the gains of X at c_1, ..., c_s, one below the other
 };
 
 }  // namespace portrait::reference
