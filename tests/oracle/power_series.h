@@ -41,9 +41,17 @@ inline PowerSeries antiderivative(const PowerSeries& c) {
   return s;
 }
 
+/// Whether c_0 outweighs all other terms on 0 <= x <= length: then f has no zero there.
+inline bool has_no_zero(const PowerSeries& c, Real length) {
+  Real rest = 0;
+  for (std::size_t k = c.size() - 1; k > 0; --k) rest = (rest + std::abs(c[k])) * length;
+  return std::abs(c[0]) > rest;
+}
+
 inline std::vector<Real> sign_changes(const PowerSeries& c, Real length) {
   constexpr int kRaster = 256;
   std::vector<Real> found;
+  if (c.empty() || has_no_zero(c, length)) return found;
   for (int i = 0; i < kRaster; ++i) {
     Real left = length * i / kRaster, right = length * (i + 1) / kRaster;
     const bool negative = value(c, left) < 0;
