@@ -90,7 +90,16 @@ inline Real integral_of_error(const Signal& signal, Real target) {
   return sum;
 }
 
-/// f(0-) = 0, then both ends of each piece and the extremes between them.
+/// The points at which the direction changes, and the two ends.
+inline std::vector<Real> without_passed_points(const std::vector<Real>& points) {
+  std::vector<Real> turns{points.front()};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    if ((points[i] - turns.back()) * (points[i + 1] - points[i]) < 0) turns.push_back(points[i]);
+  turns.push_back(points.back());
+  return turns;
+}
+
+/// f(0-) = 0, the extremes and the ends of jumps, and the last value.
 inline std::vector<Real> turning_points(const Signal& signal) {
   std::vector<Real> points{0};
   for (const PowerPiece& piece : signal) {
@@ -98,7 +107,7 @@ inline std::vector<Real> turning_points(const Signal& signal) {
     for (const Real x : sign_changes(derivative(piece.c), piece.length)) points.push_back(value(piece.c, x));
     points.push_back(value(piece.c, piece.length));
   }
-  return points;
+  return without_passed_points(points);
 }
 
 inline Real variation(const std::vector<Real>& points) {
