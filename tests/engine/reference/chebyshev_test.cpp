@@ -153,6 +153,16 @@ TEST(SignChanges, NoneAtARootOfEvenOrder) {
   expect_roots(sign_changes(series_with_roots({-0.5, 0.3, 0.3}), 1e-15), {-0.5}, 1e-12);
 }
 
+/// Whatever rounding makes of the value at the root, where the search halves the panel.
+TEST(SignChanges, NoneAtARootOfEvenOrderWhereThePanelIsHalved) {
+  Random random(9);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double outside = random.uniform(1.5, 3), root = 0.25 * (random.below(7) - 3);
+    const Series c = random.uniform(-1, 1) * series_with_roots({root, root, outside});
+    EXPECT_TRUE(sign_changes(c, 1e-14).empty()) << root;
+  }
+}
+
 TEST(SignChanges, OneAtARootOfThirdOrder) {
   for (const double root : {0.0, 0.3, -0.5, 0.7182})
     expect_roots(sign_changes(series_with_roots({root, root, root}), 1e-15), {root}, 2e-5);

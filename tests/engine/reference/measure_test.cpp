@@ -225,6 +225,14 @@ TEST(MeasureStatus, SettledIsWithinTheBandOverTheWholeLastDeadTime) {
   }
 }
 
+TEST(MeasureStatus, OfAnAutomaticHorizonThatGaveUpIsNotSettledEvenWithinTheBand) {
+  const Loop loop = some_loops().front();
+  Response r = simulate(loop, Horizon::fixed(60));
+  ASSERT_EQ(measure(loop, r).status, Status::settled);
+  r.quiet = false;
+  EXPECT_EQ(measure(loop, r).status, Status::not_settled);
+}
+
 TEST(MeasureStatus, OfAHorizonThatEndsBeforeAnythingHappens) {
   const Loop loop{{Plant::ipdt, 0, Prefilter::none}, {.kappa = 0.2}};
   EXPECT_EQ(measure(loop, Horizon::fixed(0.5)).status, Status::not_settled);
