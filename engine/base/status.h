@@ -10,7 +10,8 @@ namespace portrait {
 enum class Status : std::uint8_t {
   not_computed = 0,  ///< the default: no work was done for this setting
   settled = 1,       ///< stable, and within the settling band at the horizon
-  not_settled = 2,   ///< stable, yet outside the settling band at the horizon: the integrals are truncated
+  not_settled = 2,   ///< stable, yet outside the settling band at the horizon, or still moving at the cap of an
+                     ///< automatic one: the integrals are truncated
   unstable = 3,      ///< at least one closed-loop root in the closed right half-plane: measures are NaN
 };
 

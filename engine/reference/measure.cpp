@@ -52,15 +52,16 @@ double absolute_error(const std::vector<Piece>& pieces, double target, double no
   return sum;
 }
 
-/// Whether a signal stays near its rest over the last dead time.
+/// Whether a signal stays near its rest over the last dead time, counted from a whole number of dead times.
 bool is_settled(const std::vector<Piece>& pieces, SeriesOf signal, double noise, double at_rest, double horizon) {
   const auto deviation = [&](std::span<const double> points) {
     double largest = 0;
     for (const double x : points) largest = std::max(largest, std::abs(x - at_rest));
     return largest;
   };
-  const auto first = std::find_if(pieces.begin(), pieces.end(),
-                                  [&](const Piece& piece) { return piece.start + piece.length > horizon - 1; });
+  const double from = std::floor(horizon - 1) - 1e-9;
+  const auto first =
+      std::find_if(pieces.begin(), pieces.end(), [&](const Piece& piece) { return piece.start >= from; });
   const std::vector<double> last = turning_points({first, pieces.end()}, signal, noise);
   const double at_end = deviation(std::span(last).subspan(1));
   return at_end <= kSettlingBand * deviation(turning_points(pieces, signal, noise));

@@ -161,17 +161,7 @@ OpenChain open_chain(const Loop& loop) {
 }
 
 SteadyState steady_state(const Loop& loop, Step step) {
-  const double kappa = loop.setting.kappa;
-  const bool integral = has_integral_action(loop.setting);
-  const bool integrating_plant = integrators(loop.family.plant) > 0;
-  if (step == kSetpoint) {
-    if (integrating_plant) return {.y = 1, .u = 0};
-    const double y = integral ? 1 : kappa / (1 + kappa);
-    return {.y = y, .u = y};
-  }
-  if (integral) return {.y = 0, .u = -1};
-  if (integrating_plant) return {.y = 1 / kappa, .u = -1};
-  return {.y = 1 / (1 + kappa), .u = -kappa / (1 + kappa)};
+  return step == kSetpoint ? rest_after_setpoint_step(loop) : rest_after_disturbance_step(loop);
 }
 
 }  // namespace portrait::reference

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include "engine/loop/loop.h"
+#include "engine/loop/steady_state.h"
 
 namespace portrait::reference {
 
@@ -35,9 +36,6 @@ struct OpenChain {
 OpenChain open_chain(const Loop& loop);
 
 /// Where the closed loop comes to rest, if it is stable, for v = (1, 0) or (0, 1).
-struct SteadyState {
-  double y, u;
-};
 SteadyState steady_state(const Loop& loop, Step step);
 
 }  // namespace portrait::reference

@@ -1,0 +1,15 @@
+/// The kernel for one instruction set. Included once by each file of this folder, with PORTRAIT_ISA_NAME defined; the
+/// -m flags of these files stand in engine/CMakeLists.txt and nowhere else.
+#pragma once
+
+#include "engine/kernel/run.inl"
+
+#define PORTRAIT_TEXT_OF(name) #name
+#define PORTRAIT_TEXT(name) PORTRAIT_TEXT_OF(name)
+
+namespace portrait::PORTRAIT_ISA_NAME {
+
+extern const kernel::Implementation kImplementation;
+const kernel::Implementation kImplementation = {PORTRAIT_TEXT(PORTRAIT_ISA_NAME), kLanes, run};
+
+}  // namespace portrait::PORTRAIT_ISA_NAME

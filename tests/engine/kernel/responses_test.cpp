@@ -1,0 +1,135 @@
+// The fast path against the reference, on every instruction set.
+#include <gtest/gtest.h>
+
+#include "tests/engine/kernel/comparison.h"
+
+namespace portrait {
+namespace {
+
+class Responses : public ::testing::TestWithParam<const kernel::Implementation*> {};
+
+std::string isa_name(const ::testing::TestParamInfo<const kernel::Implementation*>& isa) { return isa.param->name; }
+
+INSTANTIATE_TEST_SUITE_P(EveryIsa, Responses, ::testing::ValuesIn(available_implementations()), isa_name);
+
+TEST_P(Responses, EqualTheReference) {
+  const Errors errors = errors_over(*GetParam(), 100, 1);
+  EXPECT_LT(errors.integral.error, 1e-8) << errors.integral.where;
+  EXPECT_LT(errors.variation.error, 1e-7) << errors.variation.where;
+  EXPECT_EQ(errors.unresolved, 0);
+  EXPECT_EQ(errors.status_differs, 0);
+}
+
+/// The independently computed loop of the reference's own published test.
+TEST_P(Responses, QuadruplePoleWithFilter) {
+  const Loop loop{{Plant::dipdt, 1, Prefilter::full},
+                  {.kappa = 0.1248, .tau_i = 10.324, .delta = 0.5045, .tau_f = 0.1}};
+  const auto m = measure_one(*GetParam(), loop, Horizon::fixed(50)).measures;
+  EXPECT_NEAR(m[Measure::IAE_w], 10.32551792231, 1e-9);
+  EXPECT_NEAR(m[Measure::IAE_d], 82.7361046247, 1e-8);
+  EXPECT_NEAR(m[Measure::TV_uw], 0.06862339159280, 1e-11);
+  EXPECT_NEAR(m[Measure::TV_ud], 2.4963356025209, 1e-9);
+}
+
+TEST_P(Responses, ErrorIntegralsAreThoseOfTheReferenceResponse) {
+  const Loop loop{{Plant::ipdt, 1, Prefilter::full},
+                  {.kappa = 0.9, .tau_i = 4, .delta = 0.2, .tau_f = 0.1, .b = 2, .c = 0.5}};
+  const auto fast = measure_one(*GetParam(), loop, Horizon::fixed(30));
+  const auto response = reference::simulate(loop, Horizon::fixed(30));
+  const int steps = 600'000;
+  kernel::ErrorIntegrals w{}, d{};
+  for (int i = 0; i < steps; ++i) {
+    const double h = 30.0 / steps, t = (i + 0.5) * h;
+    const double ew = 1 - y_at(response.steps[reference::kSetpoint], t);
+    const double ed = -y_at(response.steps[reference::kDisturbance], t);
+    w.ISE += h * ew * ew, w.ITAE += h * t * std::abs(ew), w.ITSE += h * t * ew * ew;
+    d.ISE += h * ed * ed, d.ITAE += h * t * std::abs(ed), d.ITSE += h * t * ed * ed;
+  }
+  for (const auto& [a, b] : {std::pair{fast.w, w}, std::pair{fast.d, d}}) {
+    EXPECT_NEAR(a.ISE, b.ISE, 1e-8);
+    EXPECT_NEAR(a.ITAE, b.ITAE, 1e-8);
+    EXPECT_NEAR(a.ITSE, b.ITSE, 1e-8);
+  }
+}
+
+TEST_P(Responses, AnAutomaticHorizonGivesTheWholeIntegrals) {
+  oracle::Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    const Loop loop = random_kernel_loop(random);
+    const auto fast = measure_one(*GetParam(), loop, Horizon::until_settled());
+    const auto slow = reference::measure(loop, Horizon::until_settled());
+    EXPECT_EQ(fast.status, slow.status) << simulate_command(loop);
+    for (const Measure m : response_measures())
+      EXPECT_LT(error_of(fast.measures[m], slow.measures[m]), 1e-7)
+          << to_string(m) << " of " << simulate_command(loop);
+  }
+}
+
+/// A setting's bits do not depend on what stands beside it.
+TEST_P(Responses, NeighboursDoNotMatter) {
+  const kernel::Implementation& implementation = *GetParam();
+  oracle::Random random(9);
+  const LoopFamily families[] = {
+      {Plant::dipdt, 1, Prefilter::full}, {Plant::fotd, 0, Prefilter::pi}, {Plant::ipdt, 2, Prefilter::pi}};
+  for (const LoopFamily& family : families) {
+    std::vector<Setting> settings;
+    for (int i = 0; i < implementation.lanes; ++i)
+      settings.push_back(oracle::random_stable_loop(random, family.plant, family.n, family.prefilter).setting);
+    std::vector<kernel::LaneMeasured> together(settings.size());
+    kernel::measure_responses(implementation, family, settings, Horizon::fixed(25.5), together);
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const auto alone = measure_one(implementation, {family, settings[i]}, Horizon::fixed(25.5));
+      for (const Measure m : response_measures()) {
+        const double a = together[i].measures[m], b = alone.measures[m];
+        EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << to_string(m) << " in lane " << i;
+      }
+    }
+  }
+}
+
+/// The total variation of the same signal, of which TV0, TV1, TV2 are differences.
+double variation_of_signal(const MeasureRow& row, Measure m) {
+  const std::string name(to_string(m));
+  if (name.rfind("TV", 0) != 0) return 0;
+  return row[*measure_named("TV" + name.substr(name.find('_')))];
+}
+
+/// Largest difference between instruction sets over random loops, as a part of the signal's variation.
+Worst difference_between_isas(int count, bool (*belongs)(const Loop&)) {
+  oracle::Random random(3);
+  Worst worst;
+  for (int i = 0; i < count; ++i) {
+    const Loop loop = random_kernel_loop(random);
+    if (!belongs(loop)) continue;
+    const auto first = measure_one(*available_implementations().front(), loop, Horizon::fixed(30)).measures;
+    for (const auto* implementation : available_implementations()) {
+      const auto other = measure_one(*implementation, loop, Horizon::fixed(30)).measures;
+      for (const Measure m : response_measures()) {
+        const double size = std::max({1e-3, std::abs(first[m]), variation_of_signal(first, m)});
+        if (!std::isnan(first[m])) worst.take(std::abs(other[m] - first[m]) / size, loop, m);
+      }
+    }
+  }
+  return worst;
+}
+
+TEST(ResponsesAcrossIsas, AgreeTo12DigitsWithoutStrongLayers) {
+  const Worst worst = difference_between_isas(
+      300, [](const Loop& loop) { return loop.family.n == 0 || (loop.family.n == 1 && loop.setting.tau_f > 0.1); });
+  EXPECT_LT(worst.error, 1e-12) << worst.where;
+}
+
+/// A filter of order n takes n derivatives of rounded series: digits are lost as 1/tau_f grows.
+TEST(ResponsesAcrossIsas, AgreeTo9DigitsEverywhere) {
+  const Worst worst = difference_between_isas(100, [](const Loop&) { return true; });
+  EXPECT_LT(worst.error, 1e-9) << worst.where;
+}
+
+TEST(KernelTakes, EverythingButFullWithoutFilter) {
+  EXPECT_FALSE(kernel::kernel_takes({Plant::dipdt, 0, Prefilter::full}));
+  EXPECT_TRUE(kernel::kernel_takes({Plant::dipdt, 0, Prefilter::pi}));
+  EXPECT_TRUE(kernel::kernel_takes({Plant::fotd, 4, Prefilter::full}));
+}
+
+}  // namespace
+}  // namespace portrait
