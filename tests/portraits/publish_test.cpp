@@ -31,6 +31,11 @@ TEST_F(Publish, ExistingFileIsRefusedAndUntouched) {
   EXPECT_EQ(files_in_folder(), 1u);
 }
 
+TEST_F(Publish, ExistingFileIsRefusedBeforeAnyWork) {
+  put_bytes(in("p.h5"), "somebody's work");
+  EXPECT_THROW(PortraitWriter(in("p.h5"), sample::small_grid(), kProvenance), InputError);
+}
+
 TEST_F(Publish, FileThatCameMeanwhileIsRefusedAndUntouched) {
   const Grid grid = sample::small_grid();
   {
