@@ -63,9 +63,9 @@ Horizon horizon_in(const Value& root) {
   if (std::holds_alternative<std::string>(value.content)) return thing_in("horizon", value, automatic, {"auto"});
   if (!is_number(value)) throw_wrong_kind("horizon", value, "a number or \"auto\"");
   const double dead_times = number_in("horizon", value);
-  if (std::isfinite(dead_times) && dead_times > 0) return Horizon::fixed(dead_times);
-  throw InputError(value.place, fmt::format("\"horizon\" must be finite and above 0, or \"auto\" (it is {})",
-                                            number_text(dead_times)));
+  if (dead_times > 0 && dead_times <= kHorizonCap) return Horizon::fixed(dead_times);
+  throw InputError(value.place, fmt::format("\"horizon\" must be above 0 and at most {}, or \"auto\" (it is {})",
+                                            kHorizonCap, number_text(dead_times)));
 }
 
 Precision precision_in(const Value::Table& root) {

@@ -82,29 +82,23 @@ bool PortraitReader::has(Measure measure) const {
   return std::find(kept.begin(), kept.end(), measure) != kept.end();
 }
 
-void PortraitReader::read(Measure measure, std::uint64_t first, std::span<double> into) {
+void PortraitReader::read(Measure measure, std::uint64_t first, std::size_t count,
+                          std::vector<double>& values) const {
   PORTRAIT_CHECK(has(measure));
-  PORTRAIT_CHECK(first <= settings() && into.size() <= settings() - first);
+  PORTRAIT_CHECK(first <= settings() && count <= settings() - first);
+  values.resize(count);
   const auto widen_stored = grid().precision == Precision::real64 ? widen<double> : widen<float>;
-  file_->measure(measure).for_each_piece(
-      {first, into.size()},
-      [&](std::span<const std::byte> bytes, std::uint64_t at) { widen_stored(bytes, into.data() + (at - first)); });
-}
-
-std::vector<double> PortraitReader::read(Measure measure, std::uint64_t first, std::uint64_t count) {
-  PORTRAIT_CHECK(first <= settings() && count <= settings() - first);
-  std::vector<double> values(count);
-  read(measure, first, std::span(values));
-  return values;
-}
-
-std::vector<Status> PortraitReader::statuses(std::uint64_t first, std::uint64_t count) {
-  PORTRAIT_CHECK(first <= settings() && count <= settings() - first);
-  std::vector<Status> found(count);
-  file_->status().for_each_piece({first, count}, [&](std::span<const std::byte> bytes, std::uint64_t at) {
-    for (std::size_t i = 0; i < bytes.size(); ++i) found[at - first + i] = status_of(bytes[i], path());
+  file_->measure(measure).for_each_piece({first, count}, [&](std::span<const std::byte> bytes, std::uint64_t at) {
+    widen_stored(bytes, values.data() + (at - first));
   });
-  return found;
+}
+
+void PortraitReader::read_statuses(std::uint64_t first, std::size_t count, std::vector<Status>& statuses) const {
+  PORTRAIT_CHECK(first <= settings() && count <= settings() - first);
+  statuses.resize(count);
+  file_->status().for_each_piece({first, count}, [&](std::span<const std::byte> bytes, std::uint64_t at) {
+    for (std::size_t i = 0; i < bytes.size(); ++i) statuses[at - first + i] = status_of(bytes[i], path());
+  });
 }
 
 }  // namespace portrait

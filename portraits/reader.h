@@ -14,34 +14,34 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "engine/base/status.h"
 #include "grids/grid.h"
+#include "portraits/column_source.h"
 #include "portraits/facts.h"
 
 namespace portrait {
 
-class PortraitReader {
+class PortraitReader final : public ColumnSource {
  public:
   explicit PortraitReader(const std::filesystem::path& path);
-  ~PortraitReader();
+  ~PortraitReader() override;
   PortraitReader(PortraitReader&&) noexcept;
   PortraitReader& operator=(PortraitReader&&) noexcept;
 
   const std::filesystem::path& path() const;
-  const Grid& grid() const;  ///< with the measures the portrait has
+  const Grid& grid() const override;  ///< with the measures the portrait has
   const Facts& facts() const;
 
   bool has(Measure measure) const;
   std::uint64_t settings() const { return setting_count(grid()); }
   Setting setting(std::uint64_t number) const { return setting_at(grid(), number); }
 
-  /// REQUIRES: has(measure), first + count <= settings(); `into` has room for count values.
-  void read(Measure measure, std::uint64_t first, std::span<double> into);
-  std::vector<double> read(Measure measure, std::uint64_t first, std::uint64_t count);
-  std::vector<Status> statuses(std::uint64_t first, std::uint64_t count);
+  /// `values` is resized to `count`. REQUIRES: has(measure), first + count <= settings().
+  void read(Measure measure, std::uint64_t first, std::size_t count, std::vector<double>& values) const override;
+  /// The same of outcomes.
+  void read_statuses(std::uint64_t first, std::size_t count, std::vector<Status>& statuses) const override;
 
  private:
   class File;

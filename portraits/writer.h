@@ -34,6 +34,9 @@ class PortraitWriter {
 
   std::uint64_t tiles_left() const;
 
+  /// Where the file grows until it is published.
+  const std::filesystem::path& temporary_path() const { return temporary_.path(); }
+
   /// Adds digests and facts, closes the file, checks all of it as a reader sees it, and gives it its name.
   /// REQUIRES: no tile is left; called once.
   void publish(const RunFacts& facts);

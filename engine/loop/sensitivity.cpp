@@ -78,6 +78,7 @@ class PeakSearch {
       const auto [a, b, bound] = open_.top();
       open_.pop();
       const double cut = a == 0 ? 0.25 * b : b == kInf ? 4 * a : b > 4 * a ? std::sqrt(a * b) : 0.5 * (a + b);
+      if (cut <= a || cut >= b) continue;  // neighbouring numbers: nothing lies between
       add(a, cut);
       add(cut, b);
     }

@@ -29,30 +29,36 @@ double rest(const Series& c) { return bound(c) - std::abs(c(0)); }
 
 bool has_no_zero(const Series& c) { return std::abs(c(0)) > rest(c); }
 
-/// REQUIRES: f is monotonic and changes sign.
-double bracketed_root(const Series& c) {
+/// A point where f leaves the sign it has at x = -1. REQUIRES: it has the other sign at x = 1.
+double crossing(const Series& c, bool starts_negative) {
   double left = -1, right = 1;
-  const bool rising = value(c, left) < 0;
-  for (int i = 0; i < 60 && left < right; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (left + right);
-    ((value(c, middle) < 0) == rising ? left : right) = middle;
+    ((value(c, middle) < 0) == starts_negative ? left : right) = middle;
   }
   return 0.5 * (left + right);
 }
 
-void collect_sign_changes(const Series& c, double from, double to, double noise, int halvings_left,
+/// A stretch [from, to] of the panel, and the signs at its ends. They are handed down, so that two
+/// neighbouring stretches never disagree on the point between them, where f may be nothing but rounding.
+struct Stretch {
+  double from, to;
+  bool starts_negative, ends_negative;
+};
+
+void collect_sign_changes(const Series& c, const Stretch& at, double noise, int halvings_left,
                           std::vector<double>& found) {
-  if (has_no_zero(c) || bound(c) <= noise) return;
-  const Series slope = derivative(c);
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  if (slope.size() == 0) return;
-  if (has_no_zero(slope)) {
-    if ((value(c, -1) < 0) != (value(c, 1) < 0)) found.push_back(middle + half * bracketed_root(c));
+  const double middle = 0.5 * (at.from + at.to), half = 0.5 * (at.to - at.from);
+  if (has_no_zero(c) || bound(c) <= noise || halvings_left == 0 || has_no_zero(derivative(c))) {
+    if (at.starts_negative != at.ends_negative) found.push_back(middle + half * crossing(c, at.starts_negative));
     return;
   }
-  if (halvings_left == 0) return;
-  collect_sign_changes(restricted(c, -1, 0), from, middle, noise, halvings_left - 1, found);
-  collect_sign_changes(restricted(c, 0, 1), middle, to, noise, halvings_left - 1, found);
+  const double here = value(c, 0);
+  const bool negative = std::abs(here) <= noise ? at.starts_negative : here < 0;
+  collect_sign_changes(restricted(c, -1, 0), {at.from, middle, at.starts_negative, negative}, noise,
+                       halvings_left - 1, found);
+  collect_sign_changes(restricted(c, 0, 1), {middle, at.to, negative, at.ends_negative}, noise, halvings_left - 1,
+                       found);
 }
 
 constexpr int kHalvings = 20;
@@ -89,6 +95,7 @@ Series antiderivative(const Series& c) {
 }
 
 Series restricted(const Series& c, double from, double to) {
+  if (c.size() == 1) return c;
   thread_local Points points;
   if (points.at.size() != c.size()) points = points_for(c.size());
   Eigen::VectorXd values(c.size());
@@ -99,7 +106,8 @@ Series restricted(const Series& c, double from, double to) {
 
 std::vector<double> sign_changes(const Series& c, double noise) {
   std::vector<double> found;
-  collect_sign_changes(c, -1, 1, noise, kHalvings, found);
+  if (c.size() < 2 || bound(c) <= noise) return found;
+  collect_sign_changes(c, {-1, 1, value(c, -1) < 0, value(c, 1) < 0}, noise, kHalvings, found);
   return found;
 }
 

@@ -28,8 +28,9 @@ Series antiderivative(const Series& c);
 /// The same function on [from, to] within [-1, 1], as a series of its own.
 Series restricted(const Series& c, double from, double to);
 
-/// The points of (-1, 1) at which f changes sign, increasing. A function no larger than `noise` has none; a
-/// root of even order is no change of sign; of several within 2e-6 of each other some may be taken for one.
+/// The points of [-1, 1] at which f changes sign, increasing. A function no larger than `noise` has none; a
+/// root of even order is no change of sign, one of odd order is; of several within 2e-6 of each other some may
+/// be missing, but the sign after them is right. A root at an end, to rounding, may be found or not.
 std::vector<double> sign_changes(const Series& c, double noise);
 
 /// Sum of |c_k|: |f| is nowhere larger.

@@ -72,49 +72,46 @@ Nodes radau_nodes(int stages) {
   nodes.at = (with_start.array() + 1) / 2;
   nodes.integration = chebyshev_integrals(x, stages) * chebyshev_values(x, stages).inverse();
   nodes.to_series = chebyshev_values(with_start, stages + 1).inverse();
+  nodes.to_series.col(0) = Eigen::VectorXd::Unit(stages + 1, 0);
   return nodes;
 }
 
 Panel::Panel(const OpenChain& chain, const Nodes& nodes, double length)
     : chain_(chain), length_(length), stages_(nodes.stages()) {
   const Eigen::Index n = chain.states(), s = stages_;
-  // X_i = x0 + h sum_j a_ij (A X_j + B q_j + E v): one linear system for all stages.
+  // G_i = X_i - x0 = h sum_j a_ij (x'(0) + A G_j + B (q_j - q_0)): one linear system for all stages.
   Eigen::MatrixXd system = Eigen::MatrixXd::Identity(s * n, s * n);
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(s * n, n + 2 * s + kSteps);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(s * n, n + 2 * s);
   for (Eigen::Index i = 0; i < s; ++i) {
-    right.block(i * n, 0, n, n).setIdentity();
+    right.block(i * n, 0, n, n).diagonal().setConstant(length * nodes.at(i + 1));
     for (Eigen::Index j = 0; j < s; ++j) {
       const double a = length * nodes.integration(i, j);
       system.block(i * n, j * n, n, n) -= a * chain.A;
       right.block(i * n, n + j, n, 1) = a * chain.B.col(kY);
       right.block(i * n, n + s + j, n, 1) = a * chain.B.col(kYSlope);
-      right.block(i * n, n + 2 * s, n, kSteps) += a * chain.E;
     }
   }
   const Eigen::MatrixXd maps = system.partialPivLu().solve(right);
-  from_state_ = maps.leftCols(n);
+  from_slope_ = maps.leftCols(n);
   from_y_ = maps.middleCols(n, s);
-  if (!chain.B.col(kYSlope).isZero(0)) from_y_slope_ = maps.middleCols(n + s, s);
-  from_steps_ = maps.rightCols(kSteps);
+  if (!chain.B.col(kYSlope).isZero(0)) from_y_slope_ = maps.rightCols(s);
 }
 
 void Panel::advance(const PanelValues& y, const PanelValues& y_slope, States& x,
                     PanelValues outputs[kOutputs]) const {
   const Eigen::Index n = chain_.states(), s = stages_;
-  States at_nodes((s + 1) * n, Eigen::Index{kSteps});
-  at_nodes.topRows(n) = x;
-  auto stages = at_nodes.bottomRows(s * n);
-  stages = from_steps_;
-  stages.noalias() += from_state_ * x;
-  stages.noalias() += from_y_ * y.bottomRows(s);
-  if (from_y_slope_.size() > 0) stages.noalias() += from_y_slope_ * y_slope.bottomRows(s);
+  const States slope =
+      chain_.A * x + chain_.B.col(kY) * y.row(0) + chain_.B.col(kYSlope) * y_slope.row(0) + chain_.E;
+  States gains = from_slope_ * slope;
+  gains.noalias() += from_y_ * y.bottomRows(s);
+  if (from_y_slope_.size() > 0) gains.noalias() += from_y_slope_ * y_slope.bottomRows(s);
 
   for (int p = 0; p < kOutputs; ++p) {
     outputs[p] = chain_.D(p, kY) * y + chain_.D(p, kYSlope) * y_slope;
-    for (Eigen::Index i = 0; i <= s; ++i)
-      outputs[p].row(i) += chain_.C.row(p) * at_nodes.middleRows(i * n, n) + chain_.F.row(p);
+    outputs[p].row(0) += chain_.C.row(p) * x + chain_.F.row(p);
+    for (Eigen::Index i = 0; i < s; ++i) outputs[p].row(i + 1) += chain_.C.row(p) * gains.middleRows(i * n, n);
   }
-  x = at_nodes.bottomRows(n);
+  x += gains.bottomRows(n);
 }
 
 }  // namespace portrait::reference

@@ -18,14 +18,16 @@ namespace portrait::reference {
 struct Nodes {
   Eigen::VectorXd at;           ///< c_0 .. c_s
   Eigen::MatrixXd integration;  ///< s x s: integral from 0 to c_i of the j-th Lagrange polynomial over c_1 .. c_s
-  Eigen::MatrixXd to_series;    ///< (s+1) x (s+1): values at the nodes to Chebyshev coefficients on the panel
+  Eigen::MatrixXd to_series;    ///< (s+1) x (s+1): `PanelValues` to Chebyshev coefficients on the panel
   Eigen::Index stages() const { return integration.rows(); }
 };
 
 /// REQUIRES: 1 <= stages <= 20.
 Nodes radau_nodes(int stages);
 
-/// Values on a panel: a row a node, a column a step (kSetpoint, kDisturbance).
+/// A signal on a panel: row 0 its value at the start, row i what it has gained at c_i; a column a step (kSetpoint,
+/// kDisturbance). Gains keep the digits: a filter with a tiny tau_f takes the slope of y on a tiny panel, and slopes of
+/// values rounded at the size of y cost TV 1e-7 and more.
 using PanelValues = Eigen::Matrix<double, Eigen::Dynamic, kSteps>;
 /// States: a row a state, a column a step.
 using States = Eigen::Matrix<double, Eigen::Dynamic, kSteps>;
@@ -46,8 +48,7 @@ class Panel {
   const OpenChain& chain_;
   double length_;
   Eigen::Index stages_;
-  /// To X(c_1), ..., X(c_s), one below the other.
-  Eigen::MatrixXd from_state_, from_y_, from_y_slope_, from_steps_;
+  Eigen::MatrixXd from_slope_, from_y_, from_y_slope_;  ///< to the gains of X at c_1, ..., c_s, one below the other
 };
 
 }  // namespace portrait::reference

@@ -114,8 +114,8 @@ class Run {
     largest_ = std::max(largest_, extent.largest);
     // Solving for all stages at once leaks rounding from every state into every other.
     const double leaked = chain_.C.row(output).cwiseAbs().maxCoeff() * x_.col(step).cwiseAbs().maxCoeff();
-    extent.noise = std::max(extent.noise, 8 * kEpsilon * std::max(leaked, extent.largest));
-    const double allowed = std::max(tolerance_ * extent.largest, 8 * extent.noise);
+    extent.noise = std::max(extent.noise, kEpsilon * std::max(leaked, extent.largest));
+    const double allowed = std::max(tolerance_ * extent.largest, 64 * extent.noise);
     return std::abs(c(c.size() - 1)) + std::abs(c(c.size() - 2)) > allowed;
   }
 

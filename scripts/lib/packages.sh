@@ -9,7 +9,7 @@ build_packages=(
 picture_packages=(gnuplot-nox)
 test_packages=(
   libgtest-dev librapidcheck-dev           # unit and property tests
-  python3 python3-xarray python3-netcdf4 python3-h5netcdf netcdf-bin  # portraits read by others
+  python3 python3-xarray python3-netcdf4 python3-h5py netcdf-bin  # portraits read by others
   strace                                   # killing a sweep at a chosen system call
 )
 

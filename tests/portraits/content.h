@@ -9,6 +9,19 @@
 
 namespace portrait {
 
+inline std::vector<double> values_of(const PortraitReader& portrait, Measure measure, std::uint64_t first,
+                                     std::size_t count) {
+  std::vector<double> values;
+  portrait.read(measure, first, count, values);
+  return values;
+}
+
+inline std::vector<Status> statuses_of(const PortraitReader& portrait, std::uint64_t first, std::size_t count) {
+  std::vector<Status> statuses;
+  portrait.read_statuses(first, count, statuses);
+  return statuses;
+}
+
 template <typename Value>
 std::string raw(const std::vector<Value>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
@@ -25,8 +38,9 @@ inline std::string grid_content(const Grid& grid) {
 }
 
 inline std::string value_content(PortraitReader& portrait) {
-  std::string all = raw(portrait.statuses(0, portrait.settings()));
-  for (const Measure measure : portrait.grid().measures) all += raw(portrait.read(measure, 0, portrait.settings()));
+  std::string all = raw(statuses_of(portrait, 0, portrait.settings()));
+  for (const Measure measure : portrait.grid().measures)
+    all += raw(values_of(portrait, measure, 0, portrait.settings()));
   return all;
 }
 

@@ -29,10 +29,10 @@ std::vector<double> expected_values(Measure measure, std::uint64_t first, std::u
 
 void expect_sample_values(PortraitReader& portrait, std::uint64_t first, std::uint64_t count) {
   for (const Measure measure : portrait.grid().measures)
-    EXPECT_EQ(raw(portrait.read(measure, first, count)),
+    EXPECT_EQ(raw(values_of(portrait, measure, first, count)),
               raw(expected_values(measure, first, count, portrait.grid().precision)))
         << to_string(measure) << " from " << first << ", " << count << " settings";
-  const std::vector<Status> statuses = portrait.statuses(first, count);
+  const std::vector<Status> statuses = statuses_of(portrait, first, count);
   for (std::uint64_t i = 0; i < count; ++i) EXPECT_EQ(statuses[i], sample::status(first + i));
 }
 
@@ -103,7 +103,7 @@ TEST_F(RoundTrip, StatusAloneWhenNoMeasureIsKept) {
   sample::write(in("p.h5"), grid);
   PortraitReader portrait(in("p.h5"));
   EXPECT_FALSE(portrait.has(Measure::Ms));
-  EXPECT_EQ(portrait.statuses(5, 1).front(), Status::unstable);
+  EXPECT_EQ(statuses_of(portrait, 5, 1).front(), Status::unstable);
 }
 
 TEST_F(RoundTrip, EveryNanIsStoredAsTheSameNan) {
@@ -113,7 +113,7 @@ TEST_F(RoundTrip, EveryNanIsStoredAsTheSameNan) {
   PortraitWriter writer(in("p.h5"), grid, {.command_line = "", .method = ""});
   writer.write(0, columns);
   writer.publish({});
-  EXPECT_EQ(raw(PortraitReader(in("p.h5")).read(Measure::IAE_w, 0, 2)), raw(std::vector{kNaN, kNaN}));
+  EXPECT_EQ(raw(values_of(PortraitReader(in("p.h5")), Measure::IAE_w, 0, 2)), raw(std::vector{kNaN, kNaN}));
 }
 
 TEST_F(RoundTrip, OrderOfTilesDoesNotMatter) {
@@ -135,8 +135,8 @@ TEST_F(RoundTrip, WritingWhatWasReadGivesTheSamePortrait) {
     const SettingRange range = TileRows(grid).range(tile);
     MeasureColumns columns(grid.measures, range.count);
     for (std::size_t k = 0; k < grid.measures.size(); ++k)
-      columns.values[k] = first.read(grid.measures[k], range.first, range.count);
-    columns.status = first.statuses(range.first, range.count);
+      columns.values[k] = values_of(first, grid.measures[k], range.first, range.count);
+    columns.status = statuses_of(first, range.first, range.count);
     writer.write(tile, columns);
   }
   writer.publish({});

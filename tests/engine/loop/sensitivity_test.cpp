@@ -96,6 +96,15 @@ void expect_as_scanned(const Loop& loop) {
   EXPECT_NEAR(Mt(loop), expected.Mt, 1e-9 * expected.Mt);
 }
 
+/// Closer to the edge than rounding can tell the search still comes to an end.
+TEST(Sensitivity, OfALoopOnTheEdgeIsHuge) {
+  for (const double distance : {1e-12, 1e-15, 0.0}) {
+    const Loop loop{{Plant::ipdt, 0, Prefilter::none}, {.kappa = pi / 2 * (1 - distance)}};
+    EXPECT_GT(Ms(loop), 1e11);
+    EXPECT_GT(Mt(loop), 1e11);
+  }
+}
+
 /// Little filter and much derivative: tens of narrow peaks, one a turn of the dead time, nearly of a height; the
 /// first, broad one takes over as delta falls.
 TEST(Sensitivity, FindsTheHighestOfManyNarrowPeaks) {

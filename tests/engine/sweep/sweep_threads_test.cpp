@@ -62,6 +62,22 @@ TEST(SweepThreads, AFailureOfTheStoreStopsThemAll) {
   }
 }
 
+TEST(SweepThreads, AFailureEndsTheWorkOfTheOthers) {
+  const std::vector<Setting> grid = small_grid();
+  std::vector<Setting> many;
+  for (int i = 0; i < 20; ++i) many.insert(many.end(), grid.begin(), grid.end());
+  Collected collected(every_measure());
+  SweepJob job = job_over(many, 1, 2, collected);
+  std::uint64_t last_begun = 0;
+  job.settings_of = [&, made = job.settings_of](std::uint64_t tile) {
+    last_begun = tile;
+    return made(tile);
+  };
+  job.store = [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); };
+  EXPECT_THROW(sweep(job), std::out_of_range);
+  EXPECT_LT(last_begun + 1, job.tile_count);
+}
+
 TEST(SweepThreads, AFailingSettingIsNamedWhateverThreadMeetsIt) {
   for (const int threads : kThreads) {
     std::vector<Setting> settings = small_grid();

@@ -1,0 +1,30 @@
+/// Where a query takes its columns from: the stored portrait, or numbers in memory in a test.
+///
+/// shape     settings are numbered 0 .. setting_count(grid()) - 1, the last axis fastest; a read is a run of them
+/// unit      normalised, as the portrait is; a missing measure is NaN
+/// errors    those of the store: StoreError, IntegrityError
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/status.h"
+#include "engine/measures/catalogue.h"
+#include "grids/grid.h"
+
+namespace portrait {
+
+class ColumnSource {
+ public:
+  virtual ~ColumnSource() = default;
+  virtual const Grid& grid() const = 0;
+
+  /// Settings first .. first + count - 1 of one measure; `values` is resized to `count`.
+  /// REQUIRES: the measure is one of grid().measures, and the run lies within the grid.
+  virtual void read(Measure measure, std::uint64_t first, std::size_t count, std::vector<double>& values) const = 0;
+  /// The same run of outcomes. REQUIRES: the run lies within the grid.
+  virtual void read_statuses(std::uint64_t first, std::size_t count, std::vector<Status>& statuses) const = 0;
+};
+
+}  // namespace portrait

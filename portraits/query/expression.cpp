@@ -1,0 +1,64 @@
+#include "portraits/query/expression.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/base/words.h"
+#include "portraits/query/parser.h"
+
+namespace portrait {
+namespace {
+
+std::string names(const std::vector<Measure>& measures) {
+  std::vector<std::string_view> words;
+  for (const Measure measure : measures) words.push_back(to_string(measure));
+  return words.empty() ? "none" : joined(words);
+}
+
+std::string names(const std::vector<Parameter>& parameters) {
+  std::vector<std::string_view> words;
+  for (const Parameter parameter : parameters) words.push_back(to_string(parameter));
+  return joined(words);
+}
+
+std::optional<std::string> why_unavailable(Measure measure, const Grid& grid) {
+  const bool stored = std::find(grid.measures.begin(), grid.measures.end(), measure) != grid.measures.end();
+  if (stored) return std::nullopt;
+  return fmt::format("measure \"{}\" is not stored in this portrait (stored: {})", to_string(measure),
+                     names(grid.measures));
+}
+
+std::optional<std::string> why_unavailable(Parameter parameter, const Grid& grid) {
+  if (applies(parameter, grid.family)) return std::nullopt;
+  return fmt::format("this portrait has no parameter \"{}\" (it has: {})", to_string(parameter),
+                     names(parameters_of(grid.family)));
+}
+
+}  // namespace
+
+std::optional<double> Expression::constant() const {
+  if (!program_.is_constant()) return std::nullopt;
+  Columns one;
+  one.count = 1;
+  ColumnStack stack;
+  std::vector<double> value;
+  evaluate(one, stack, value);
+  return value[0];
+}
+
+Expression parse_expression(const QueryText& text) {
+  Parser parser(text);
+  Expression parsed = parser.expression();
+  parser.require_end("makes a constraint; an expression has no relation");
+  return parsed;
+}
+
+void require_available(const Expression& expression, const Grid& grid) {
+  for (const Expression::Use& use : expression.uses()) {
+    const auto why = std::visit([&](auto quantity) { return why_unavailable(quantity, grid); }, use.quantity);
+    if (why) fail_at(expression.whole(), use.offset, *why);
+  }
+}
+
+}  // namespace portrait

@@ -1,0 +1,132 @@
+/// A signal in pieces, each a power series of the time since the piece began, and the measures of such a signal.
+///
+///     f(start + x) = c_0 + c_1 x + c_2 x^2 + ...,   0 <= x <= length
+///
+/// Written to judge the measures of the reference simulation: long double, no code of engine/. Sign changes are looked
+/// for on a fine raster and then bisected, so a pair closer than the raster (1/256 of a piece) is missed.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace portrait::oracle {
+
+using Real = long double;
+using PowerSeries = std::vector<Real>;  ///< c_0, c_1, ...
+
+struct PowerPiece {
+  Real start, length;
+  PowerSeries c;
+};
+using Signal = std::vector<PowerPiece>;
+
+inline Real value(const PowerSeries& c, Real x) {
+  Real sum = 0;
+  for (std::size_t k = c.size(); k-- > 0;) sum = sum * x + c[k];
+  return sum;
+}
+
+inline PowerSeries derivative(const PowerSeries& c) {
+  PowerSeries d;
+  for (std::size_t k = 1; k < c.size(); ++k) d.push_back(static_cast<Real>(k) * c[k]);
+  return d;
+}
+
+/// 0 at x = 0.
+inline PowerSeries antiderivative(const PowerSeries& c) {
+  PowerSeries s{0};
+  for (std::size_t k = 0; k < c.size(); ++k) s.push_back(c[k] / static_cast<Real>(k + 1));
+  return s;
+}
+
+/// Whether c_0 outweighs all other terms on 0 <= x <= length: then f has no zero there.
+inline bool has_no_zero(const PowerSeries& c, Real length) {
+  Real rest = 0;
+  for (std::size_t k = c.size() - 1; k > 0; --k) rest = (rest + std::abs(c[k])) * length;
+  return std::abs(c[0]) > rest;
+}
+
+inline std::vector<Real> sign_changes(const PowerSeries& c, Real length) {
+  constexpr int kRaster = 256;
+  std::vector<Real> found;
+  if (c.empty() || has_no_zero(c, length)) return found;
+  for (int i = 0; i < kRaster; ++i) {
+    Real left = length * i / kRaster, right = length * (i + 1) / kRaster;
+    const bool negative = value(c, left) < 0;
+    if ((value(c, right) < 0) == negative) continue;
+    for (int halving = 0; halving < 70; ++halving) {
+      const Real middle = (left + right) / 2;
+      ((value(c, middle) < 0) == negative ? left : right) = middle;
+    }
+    found.push_back(left);
+  }
+  return found;
+}
+
+/// The signal at one instant; the limit from the right where two pieces meet.
+inline Real at(const Signal& signal, Real t) {
+  std::size_t i = signal.size() - 1;
+  while (i > 0 && signal[i].start > t) --i;
+  return value(signal[i].c, t - signal[i].start);
+}
+
+/// Integral of |target - f| over all pieces.
+inline Real integral_of_error(const Signal& signal, Real target) {
+  Real sum = 0;
+  for (const PowerPiece& piece : signal) {
+    PowerSeries e = piece.c;
+    e[0] -= target;
+    const PowerSeries integral = antiderivative(e);
+    std::vector<Real> ends = sign_changes(e, piece.length);
+    ends.push_back(piece.length);
+    Real last = 0;
+    for (const Real x : ends) {
+      sum += std::abs(value(integral, x) - last);
+      last = value(integral, x);
+    }
+  }
+  return sum;
+}
+
+/// The points at which the direction changes, and the two ends.
+inline std::vector<Real> without_passed_points(const std::vector<Real>& points) {
+  std::vector<Real> turns{points.front()};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    if ((points[i] - turns.back()) * (points[i + 1] - points[i]) < 0) turns.push_back(points[i]);
+  turns.push_back(points.back());
+  return turns;
+}
+
+/// f(0-) = 0, the extremes and the ends of jumps, and the last value.
+inline std::vector<Real> turning_points(const Signal& signal) {
+  std::vector<Real> points{0};
+  for (const PowerPiece& piece : signal) {
+    points.push_back(value(piece.c, 0));
+    for (const Real x : sign_changes(derivative(piece.c), piece.length)) points.push_back(value(piece.c, x));
+    points.push_back(value(piece.c, piece.length));
+  }
+  return without_passed_points(points);
+}
+
+inline Real variation(const std::vector<Real>& points) {
+  Real sum = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += std::abs(points[i] - points[i - 1]);
+  return sum;
+}
+
+/// TVm for m <= 2 by trying every shape: 0, at most m of the points alternately on both sides of `rest`, `rest`.
+inline Real shape_deviation(const std::vector<Real>& points, Real rest, int m) {
+  Real best = std::abs(rest);
+  for (std::size_t i = 1; m >= 1 && i < points.size(); ++i) {
+    const Real first = std::abs(points[i]);
+    best = std::max(best, first + std::abs(rest - points[i]));
+    for (std::size_t j = i + 1; m >= 2 && j < points.size(); ++j)
+      if ((points[i] > rest) != (points[j] > rest))
+        best = std::max(best, first + std::abs(points[j] - points[i]) + std::abs(rest - points[j]));
+  }
+  return variation(points) + std::abs(rest - points.back()) - best;
+}
+
+}  // namespace portrait::oracle

@@ -1,0 +1,200 @@
+#include "portraits/query/query.h"
+
+#include <cmath>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/portraits/query/error_text.h"
+#include "tests/portraits/query/memory_source.h"
+#include "tests/portraits/query/small_portraits.h"
+
+namespace portrait {
+namespace {
+
+TEST(Query, finds_the_smallest_objective) {
+  const Answer answer = ask(five({5, 4, 3, 4, 5}, {1, 1, 1, 1, 1}), question("IAE_w"));
+  ASSERT_EQ(answer.top.size(), 1u);
+  const Found& best = answer.top[0];
+  EXPECT_EQ(best.number, 2u);
+  EXPECT_EQ(best.objective, 3);
+  EXPECT_EQ(best.status, Status::settled);
+  EXPECT_EQ(best.setting.kappa, 0.3);
+  EXPECT_EQ(best.setting.delta, 0.5);
+  EXPECT_EQ(best.setting.tau_i, 8);
+  EXPECT_EQ(best.measures[Measure::IAE_w], 3);
+  EXPECT_EQ(best.measures[Measure::IAE_d], 30);
+  EXPECT_TRUE(std::isnan(best.measures[Measure::Ms]));
+  EXPECT_EQ(answer.admissible, 5u);
+  EXPECT_EQ(answer.total, 5u);
+  EXPECT_TRUE(answer.active.empty());
+  EXPECT_FALSE(answer.strictest);
+  EXPECT_FALSE(answer.near_miss);
+}
+
+TEST(Query, top_is_sorted_and_ties_go_to_the_lower_number) {
+  const MemorySource source = five({2, 1, 2, 1, 3}, {1, 1, 1, 1, 1});
+  ASSERT_EQ(numbers(ask(source, question("IAE_w", {}, 3))), (Numbers{1, 3, 0}));
+  ASSERT_EQ(numbers(ask(source, question("IAE_w", {}, 4))), (Numbers{1, 3, 0, 2}));
+  ASSERT_EQ(numbers(ask(source, question("IAE_w", {}, 99))), (Numbers{1, 3, 0, 2, 4}));
+  ASSERT_EQ(numbers(ask(source, question("0", {}, 2))), (Numbers{0, 1}));
+}
+
+TEST(Query, only_settings_under_every_constraint_count) {
+  const Answer answer =
+      ask(five({1, 2, 3, 4, 5}, {9, 8, 3, 2, 1}), question("IAE_w", {"TV2_uw <= 3", "kappa == 0.4"}));
+  ASSERT_EQ(numbers(answer), Numbers{3});
+  EXPECT_EQ(answer.admissible, 1u);
+  EXPECT_EQ(answer.excluded, (Numbers{2, 4}));
+}
+
+TEST(Query, counts_what_is_left_out_and_why) {
+  MemorySource source = five({1, 2, 3, kNaN, 5}, {1, 1, 1, 1, 1});
+  source.status(0) = Status::unstable;
+  source.status(1) = Status::not_settled;
+  source.status(2) = Status::not_computed;
+  Question asked = question("IAE_w");
+  const Answer answer = ask(source, asked);
+  ASSERT_EQ(numbers(answer), Numbers{4});
+  EXPECT_EQ(answer.left_out.unstable, 1u);
+  EXPECT_EQ(answer.left_out.not_settled, 1u);
+  EXPECT_EQ(answer.left_out.not_computed, 1u);
+  EXPECT_EQ(answer.left_out.objective_missing, 1u);
+  EXPECT_EQ(answer.admissible, 1u);
+  EXPECT_EQ(answer.total, 5u);
+  asked.include_not_settled = true;
+  const Answer with = ask(source, asked);
+  ASSERT_EQ(numbers(with), Numbers{1});
+  EXPECT_EQ(with.top[0].status, Status::not_settled);
+  EXPECT_EQ(with.left_out.not_settled, 0u);
+  EXPECT_EQ(with.admissible, 2u);
+}
+
+TEST(Query, nan_in_a_constraint_makes_a_setting_inadmissible) {
+  const Answer answer = ask(five({1, 2, 3, 4, 5}, {kNaN, kNaN, 1, 1, 1}), question("IAE_w", {"TV2_uw <= 3"}));
+  ASSERT_EQ(numbers(answer), Numbers{2});
+  EXPECT_EQ(answer.excluded, Numbers{2});
+}
+
+TEST(Query, an_infinite_objective_is_admissible) {
+  const Answer answer =
+      ask(five({kInf, kInf, kInf, kInf, kInf}, {9, 1, 1, 1, 1}), question("IAE_w", {"TV2_uw <= 3"}));
+  ASSERT_EQ(numbers(answer), Numbers{1});
+  EXPECT_TRUE(answer.active.empty());
+}
+
+TEST(Query, active_constraints_are_those_whose_removal_alone_helps) {
+  //                       kappa  0.1 0.2 0.3 0.4 0.5
+  const MemorySource source = five({1, 2, 3, 4, 5}, {9, 8, 7, 2, 1});
+  const Answer answer =
+      ask(source, question("IAE_w", {"TV2_uw <= 2", "IAE_d >= 20", "kappa <= 0.45", "IAE_w > 0"}));
+  ASSERT_EQ(numbers(answer), Numbers{3});
+  ASSERT_EQ(answer.active.size(), 1u);  // setting 0 fails two, setting 4 is no better
+  EXPECT_EQ(answer.active[0].constraint, 0u);
+  EXPECT_EQ(answer.active[0].optimum.number, 1u);
+  EXPECT_EQ(answer.active[0].optimum.objective, 2);
+  EXPECT_EQ(answer.active[0].optimum.setting.kappa, 0.2);
+}
+
+TEST(Query, removal_that_only_ties_is_not_active) {
+  const Answer answer = ask(five({2, 2, 3, 4, 5}, {9, 1, 1, 1, 1}), question("IAE_w", {"TV2_uw <= 2"}));
+  ASSERT_EQ(numbers(answer), Numbers{1});
+  EXPECT_TRUE(answer.active.empty());
+}
+
+TEST(Query, explains_why_nothing_is_admissible) {
+  const MemorySource source = five({1, 2, 3, 4, 5}, {9, 8, 7, 6, 5});
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 4", "IAE_w <= 2"}));
+  EXPECT_TRUE(answer.top.empty());
+  EXPECT_EQ(answer.admissible, 0u);
+  EXPECT_EQ(answer.excluded, (Numbers{5, 3}));
+  EXPECT_EQ(answer.strictest, 0u);
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].constraint, 0u);
+  EXPECT_EQ(answer.active[0].optimum.number, 0u);
+  ASSERT_TRUE(answer.near_miss);  // largest violations 1.25, 1, 0.75, 1, 1.5
+  EXPECT_EQ(answer.near_miss->found.number, 2u);
+  ASSERT_EQ(answer.near_miss->violations.size(), 2u);
+  const Violation& first = answer.near_miss->violations[0];
+  EXPECT_EQ(first.constraint, 0u);
+  EXPECT_EQ(first.left, 7);
+  EXPECT_EQ(first.right, 4);
+  EXPECT_EQ(first.relative, 0.75);
+  EXPECT_EQ(answer.near_miss->violations[1].relative, 0.5);
+}
+
+TEST(Query, a_strict_relation_may_be_missed_by_nothing) {
+  const Answer answer = ask(five({1, 2, 3, 4, 5}, {4, 3, 2, 2, 2}), question("IAE_w", {"TV2_uw < 2"}));
+  ASSERT_TRUE(answer.near_miss);
+  EXPECT_EQ(answer.near_miss->found.number, 2u);
+  ASSERT_EQ(answer.near_miss->violations.size(), 1u);
+  EXPECT_EQ(answer.near_miss->violations[0].relative, 0);
+}
+
+TEST(Query, no_near_miss_without_numbers) {
+  const Answer nan = ask(five({1, 2, 3, 4, 5}, std::vector<double>(5, kNaN)), question("IAE_w", {"TV2_uw <= 4"}));
+  EXPECT_FALSE(nan.near_miss);
+  EXPECT_EQ(nan.strictest, 0u);
+  const Answer none = ask(five(std::vector<double>(5, kNaN), {1, 1, 1, 1, 1}), question("IAE_w", {"TV2_uw <= 4"}));
+  EXPECT_FALSE(none.near_miss);
+  EXPECT_FALSE(none.strictest);
+  EXPECT_EQ(none.left_out.objective_missing, 5u);
+}
+
+TEST(Query, of_a_single_setting) {
+  Grid grid = line(2);
+  grid.axes.clear();
+  grid.fixed.push_back({Parameter::kappa, 0.25});
+  const Answer answer = ask(MemorySource(grid), question("IAE_w + kappa", {"tau_d == 2"}));
+  ASSERT_EQ(numbers(answer), Numbers{0});
+  EXPECT_EQ(answer.top[0].objective, 1.25);
+}
+
+TEST(Query, blocks_meet_without_gap_or_overlap) {
+  for (const std::uint64_t total :
+       {kBlockSettings - 1, kBlockSettings, kBlockSettings + 1, 2 * kBlockSettings + 3}) {
+    MemorySource source(line(total));
+    for (const std::uint64_t best : {std::uint64_t{0}, total / 2, kBlockSettings - 2, total - 1}) {
+      source.at(Measure::IAE_w, best) = -1;
+      const Answer answer = ask(source, question("IAE_w", {"IAE_w < 0", "IAE_d == 1"}));
+      ASSERT_EQ(numbers(answer), Numbers{best}) << total;
+      EXPECT_EQ(answer.admissible, 1u);
+      EXPECT_EQ(answer.total, total);
+      EXPECT_EQ(answer.excluded, (Numbers{total - 1, 0}));
+      source.at(Measure::IAE_w, best) = 1;
+    }
+  }
+}
+
+TEST(Query, reads_each_column_in_use_once_in_blocks) {
+  const std::uint64_t total = 3 * kBlockSettings + 7;
+  MemorySource source(line(total));
+  ask(source, question("IAE_w", {"IAE_w + TV2_uw <= 9", "kappa < 1"}));
+  EXPECT_EQ(source.values_read(), 2 * total + 3);  // and the three measures of the one answer
+  EXPECT_EQ(source.longest_read(), kBlockSettings);
+}
+
+TEST(Query, skips_measures_where_nothing_is_stable) {
+  MemorySource source(line(2 * kBlockSettings));
+  for (std::uint64_t i = 0; i < kBlockSettings; ++i) source.status(i) = Status::unstable;
+  ask(source, question("IAE_w"));
+  EXPECT_EQ(source.values_read(), kBlockSettings + 3);
+}
+
+TEST(Query, refuses_a_question_that_does_not_fit) {
+  const MemorySource source(line(5));
+  const auto problem = [&](const Question& asked) { return error_text([&] { ask(source, asked); }); };
+  EXPECT_EQ(problem(question("IAE_w", {}, 0)), "top must be 1 .. 100000 (it is 0)");
+  EXPECT_EQ(problem(question("IAE_w", {}, 100'001)), "top must be 1 .. 100000 (it is 100001)");
+  EXPECT_EQ(problem(question("Ms")),
+            "--minimize:1:1: measure \"Ms\" is not stored in this portrait (stored: IAE_w, IAE_d, TV2_uw)\n  "
+            "Ms\n  ^");
+  EXPECT_EQ(problem(question("IAE_w", {"Mt < 2"})),
+            "--where:1:1: measure \"Mt\" is not stored in this portrait (stored: IAE_w, IAE_d, TV2_uw)\n  Mt "
+            "< 2\n  ^");
+  EXPECT_EQ(problem(question("IAE_w", {"kappa == 0.55"})),
+            "--where:1:1: the axis kappa has no value 0.55 (nearest: 0.5)\n  kappa == 0.55\n  ^");
+}
+
+}  // namespace
+}  // namespace portrait

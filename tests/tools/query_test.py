@@ -1,0 +1,102 @@
+"""portrait query: text, JSON, CSV, real units, nothing admissible."""
+
+import csv
+import io
+
+import program
+from program import ProgramTest
+
+
+class Query(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.portrait = self.small_portrait()
+
+    def query(self, *arguments):
+        return self.run_program("query", self.portrait, *arguments)
+
+    def test_json_form(self):
+        result = self.query("--minimize", "IAE_w + IAE_d", "--where", "TV2_ud <= 0.1", "--top", "2", "--json")
+        answer = result.json
+        self.assertEqual((result.code, result.err), (0, ""))
+        self.assertEqual(answer["total"], 27)
+        self.assertEqual(answer["optimum"], answer["top"][0])
+        self.assertEqual(len(answer["top"]), 2)
+        self.assertEqual(set(answer["optimum"]["settings"]), {"kappa", "tau_i", "delta", "tau_d", "b"})
+        self.assertLessEqual(answer["optimum"]["measures"]["TV2_ud"], 0.1)
+        for active in answer["active"]:
+            self.assertLess(active["objective_without"], answer["optimum"]["objective"])
+
+    def test_json_equals_simulate(self):
+        best = self.query("--minimize", "IAE_w", "--json").json["optimum"]
+        s = best["settings"]
+        simulated = self.run_program("simulate", "--plant", "dipdt", "--kappa", s["kappa"], "--tau-i", s["tau_i"], "--delta",
+                                     s["delta"], "--horizon", "40", "--json").json
+        self.assertEqual(best["measures"], simulated["measures"])
+
+    def test_real_units(self):
+        K, Td = 3.0, 0.5
+        plain = self.query("--minimize", "IAE_d", "--where", "delta == 0.55", "--where", "Ms <= 3", "--json").json["optimum"]
+        real = self.query("--minimize", "IAE_d", "--where", "delta == 0.55", "--where", "Ms <= 3", "--plant", f"K={K},Td={Td}",
+                          "--json").json
+        optimum = real["optimum"]
+        self.assertEqual(optimum["settings"], plain["settings"])
+        self.assertAlmostEqual(optimum["measures"]["IAE_d"], plain["measures"]["IAE_d"] * K * Td ** 3, places=9)
+        self.assertAlmostEqual(optimum["measures"]["TV_uw"], plain["measures"]["TV_uw"] / (K * Td ** 2), places=9)
+        standard = optimum["controller"]["standard"]
+        self.assertAlmostEqual(standard["Kc"], plain["settings"]["kappa"] / (K * Td ** 2))
+        self.assertAlmostEqual(standard["Ti"], plain["settings"]["tau_i"] * Td)
+        parallel = optimum["controller"]["parallel"]
+        self.assertAlmostEqual(parallel["Kd"], plain["settings"]["delta"] / (K * Td))
+        self.assertEqual(real["units"], "real")
+
+    def test_bounds_are_in_real_units(self):
+        bound = self.query("--minimize", "IAE_d", "--json").json["optimum"]["measures"]["u_max_w"] * 0.9
+        plain = self.query("--minimize", "IAE_d", "--where", f"u_max_w <= {bound}", "--json").json
+        real = self.query("--minimize", "IAE_d", "--where", f"u_max_w <= {bound / 4}", "--plant", "K=4,Td=1", "--json").json
+        self.assertEqual(plain["optimum"]["settings"], real["optimum"]["settings"])
+        self.assertEqual(plain["admissible"], real["admissible"])
+
+    def test_text_names_formulas_and_units(self):
+        result = self.query("--minimize", "IAE_d", "--where", "Ms <= 2.5", "--plant", "K=3,Td=0.5")
+        self.assertEqual(result.code, 0)
+        for part in ("controller for K e^(-Td s)/s^2, K = 3, Td = 0.5", "Kp + Ki/s + Kd s", "Kc (1 + 1/(Ti s) + TD s)",
+                     "real units, unit steps"):
+            self.assertIn(part, result.out)
+        self.assertIn("bounds on measures are taken in real units", result.err)
+
+    def test_csv(self):
+        result = self.query("--minimize", "IAE_w", "--top", "100", "--csv")
+        rows = list(csv.DictReader(io.StringIO(result.out)))
+        admissible = self.query("--minimize", "IAE_w", "--json").json["admissible"]
+        self.assertEqual(len(rows), admissible)
+        objectives = [float(row["objective"]) for row in rows]
+        self.assertEqual(objectives, sorted(objectives))
+
+    def test_nothing_admissible(self):
+        result = self.query("--minimize", "IAE_w", "--where", "IAE_d <= 1", "--where", "Ms <= 3", "--where", "tau_i <= 20")
+        self.assertEqual((result.code, result.out), (3, ""))
+        self.assertRegex(result.err, r"^portrait: no admissible setting: 0 of 27 settings are admissible")
+        self.assertRegex(result.err, r"\n  IAE_d <= 1 excludes \d+, the most\n")
+        self.assertRegex(result.err, r"\nleast violation at kappa=.* tau_i=.* delta=.*:\n  IAE_d <= 1: [\d.]+ against 1\n")
+        answer = self.query("--minimize", "IAE_w", "--where", "IAE_d <= 1", "--json")
+        self.assertEqual((answer.code, answer.json["optimum"], answer.json["admissible"]), (3, None, 0))
+        self.assertEqual(answer.json["least_violation"]["violations"][0]["constraint"], "IAE_d <= 1")
+
+    def test_wrong_questions(self):
+        cases = [
+            (("--minimize", "IAE_x"), '--minimize:1:1: unknown name "IAE_x" (did you mean "IAE_w"?)\n  IAE_x\n  ^'),
+            (("--minimize", "IAE_w", "--json", "--csv"), "--json and --csv: give one of the two"),
+            (("--minimize", "IAE_w", "--plant", "K=1"), "--plant: Td must be finite and above 0 (it is 0)"),
+            (("--minimize", "IAE_w", "--plant", "K=1,Td=x"), '--plant: "x" is not a number'),
+            (("--minimize", "IAE_w", "--plant", "K=1,Tx=1"), '--plant: unknown name "Tx" (did you mean "Td"?)'),
+            (("--minimize", "IAE_w", "--plant", "K=1,Td=1,T1=1"), "--plant: T1 belongs to fotd, not to dipdt"),
+            (("--minimize", "IAE_w", "--plant", "1"), '--plant: "1" is not of the form NAME=NUMBER'),
+        ]
+        for arguments, message in cases:
+            with self.subTest(arguments=arguments):
+                self.assert_fails(self.query(*arguments), 2, message)
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,114 @@
+"""portrait sweep: the summary, the dry run, wrong grids, interruption, the same bits for any number of threads."""
+
+import os
+import re
+import signal
+import subprocess
+import time
+
+import program
+from program import ProgramTest, SMALL_GRID
+
+LONG_GRID = SMALL_GRID.replace("step = 0.08", "count = 400").replace("[0.4, 0.55, 0.7]", "{ from = 0.4, to = 0.7, count = 40 }")
+
+
+class Sweep(ProgramTest):
+    def test_json_summary(self):
+        self.write("g.toml", SMALL_GRID)
+        result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--json")
+        answer = result.json
+        self.assertEqual((result.code, answer["settings"], answer["file"]), (0, 27, "g.h5"))
+        self.assertEqual(answer["settled"] + answer["not_settled"] + answer["unstable"], 27)
+        self.assertGreater(answer["settings_per_second"], 0)
+        self.assertGreater(answer["seconds"], 0)
+
+    def test_summary_goes_to_stderr_and_quiet_says_nothing(self):
+        self.write("g.toml", SMALL_GRID)
+        result = self.run_program("sweep", "g.toml", "-o", "g.h5")
+        self.assertEqual(result.out, "")
+        self.assertRegex(result.err, r"portrait: 27 settings in .* on \d+ threads, [\d,]+ settings/s\n")
+        result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--force", "--quiet")
+        self.assertEqual((result.code, result.out, result.err), (0, "", ""))
+
+    def test_an_existing_file_is_kept(self):
+        self.small_portrait()
+        before = (self.folder / "small.h5").read_bytes()
+        self.assert_fails(self.run_program("sweep", "small.toml", "-o", "small.h5"), 2,
+                          "small.h5 exists already (--force replaces it)")
+        self.assertEqual((self.folder / "small.h5").read_bytes(), before)
+
+    def test_dry_run_writes_nothing(self):
+        self.write("g.toml", LONG_GRID)
+        result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--dry-run", "--threads", "2")
+        self.assertEqual(result.code, 0)
+        self.assertRegex(result.out, r"^48,000 settings in \d+ tiles, 24 measures each\nabout .* on 2 threads, at most .* on disk\n$")
+        self.assertFalse((self.folder / "g.h5").exists())
+        answer = self.run_program("sweep", "g.toml", "--dry-run", "--json").json
+        self.assertEqual(answer["settings"], 48000)
+
+    def test_dry_run_of_a_grid_that_no_memory_holds(self):
+        self.write("g.toml", LONG_GRID.replace("count = 400", "count = 4000000000").replace("count = 40 ", "count = 40000000 "))
+        result = self.run_program("sweep", "g.toml", "--dry-run", "--json")
+        self.assertEqual(result.json["settings"], 4000000000 * 40000000 * 3)
+
+    def test_wrong_grid(self):
+        self.write("g.toml", SMALL_GRID.replace("kappa", "kapa"))
+        self.assert_fails(self.run_program("sweep", "g.toml", "-o", "g.h5"), 2,
+                          'g.toml:7:1: unknown key "kapa" (did you mean "kappa"?)')
+        self.assert_fails(self.run_program("sweep", "none.toml", "-o", "g.h5"), 2,
+                          "none.toml: cannot be read: No such file or directory")
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
+
+    def test_output_is_needed(self):
+        self.write("g.toml", SMALL_GRID)
+        self.assert_fails(self.run_program("sweep", "g.toml"), 2, "-o FILE.h5 is missing: where shall the portrait go?")
+        self.assert_fails(self.run_program("sweep", "g.toml", "-o", "no/folder/g.h5"), 2,
+                          "no/folder/g.h5: there is no directory no/folder")
+
+    def test_same_values_for_any_number_of_threads(self):
+        self.write("g.toml", SMALL_GRID.replace("step = 0.08", "count = 50"))
+        digests = set()
+        for threads in (1, 2, 5):
+            self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet", "--force", "--threads", threads)
+            digests.add(self.run_program("verify", "g.h5").out)
+        self.assertEqual(len(digests), 1)
+        self.assertIn("IAE_w", digests.pop())
+
+    def start_long_sweep(self):
+        self.write("g.toml", LONG_GRID)
+        sweep = subprocess.Popen([program.PROGRAM, "sweep", "g.toml", "-o", "g.h5"], cwd=self.folder, text=True,
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not any(".tmp-" in path.name for path in self.folder.iterdir()):
+            self.assertIsNone(sweep.poll(), "the sweep is too short for this test")
+            time.sleep(0.01)
+        time.sleep(0.2)
+        return sweep
+
+    def test_ctrl_c_ends_cleanly(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            sweep = self.start_long_sweep()
+            sweep.send_signal(number)
+            out, err = sweep.communicate(timeout=60)
+            self.assertEqual(sweep.returncode, 5)
+            self.assertRegex(err, r"portrait: stopped after [\d,]+ of 48,000 settings; no file was written\n$")
+            self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
+
+    def test_second_ctrl_c_leaves_at_once_and_leaves_nothing(self):
+        sweep = self.start_long_sweep()
+        sweep.send_signal(signal.SIGSTOP)
+        sweep.send_signal(signal.SIGINT)
+        sweep.send_signal(signal.SIGTERM)  # two pending signals, so that the second comes before the first is acted on
+        sweep.send_signal(signal.SIGCONT)
+        sweep.communicate(timeout=60)
+        self.assertEqual(sweep.returncode, 130)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
+
+    def test_what_a_killed_run_left_is_mentioned(self):
+        self.write("g.toml", SMALL_GRID)
+        self.write("g.h5.tmp-1-0", "")
+        result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet")
+        self.assertEqual(result.err, "portrait: note: ./g.h5.tmp-1-0 is of a run that was killed, or of one that still runs\n")
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,89 @@
+#include "tools/arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.h"
+#include "engine/base/words.h"
+
+namespace portrait::tools {
+namespace {
+
+[[noreturn]] void fail(std::string_view option, const std::string& message) {
+  throw InputError(fmt::format("{}: {}", option, message));
+}
+
+template <typename Names>
+std::vector<std::string_view> words(const Names& names) {
+  return {names.begin(), names.end()};
+}
+
+struct Assignment {
+  std::string name, value;
+};
+
+/// "K=2,Td=1" -> (K, 2), (Td, 1)
+std::vector<Assignment> assignments(std::string_view option, std::string_view text) {
+  std::vector<Assignment> found;
+  std::istringstream parts{std::string(text)};
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto equals = part.find('=');
+    if (equals == std::string::npos) fail(option, fmt::format("\"{}\" is not of the form NAME=NUMBER", part));
+    found.push_back({part.substr(0, equals), part.substr(equals + 1)});
+  }
+  return found;
+}
+
+}  // namespace
+
+double number_argument(std::string_view option, std::string_view text) {
+  const auto number = parse_number(text);
+  if (!number) fail(option, fmt::format("\"{}\" is not a number", text));
+  return *number;
+}
+
+Horizon horizon_argument(std::string_view option, std::string_view text) {
+  if (text == "auto") return Horizon::until_settled();
+  const auto number = parse_number(text);
+  if (!number || !std::isfinite(*number) || *number <= 0)
+    fail(option, fmt::format("\"{}\" is neither a number of dead times above 0 nor auto", text));
+  if (*number > kHorizonCap) fail(option, fmt::format("at most {} dead times (it is {})", kHorizonCap, text));
+  return Horizon::fixed(*number);
+}
+
+Plant plant_family_argument(std::string_view option, std::string_view text) {
+  const auto plant = plant_named(text);
+  if (!plant) fail(option, fmt::format("unknown plant \"{}\"{}", text, suggestion(text, words(kPlantNames))));
+  return *plant;
+}
+
+Prefilter prefilter_argument(std::string_view option, std::string_view text) {
+  const auto prefilter = prefilter_named(text);
+  if (!prefilter)
+    fail(option, fmt::format("unknown prefilter \"{}\"{}", text, suggestion(text, words(kPrefilterNames))));
+  return *prefilter;
+}
+
+RealPlant real_plant_argument(std::string_view option, std::string_view text, Plant family) {
+  RealPlant plant{.family = family, .K = 1, .Td = 0, .T1 = 0};
+  for (const auto& [name, value] : assignments(option, text)) {
+    const double number = number_argument(option, value);
+    if (name == "K")
+      plant.K = number;
+    else if (name == "Td")
+      plant.Td = number;
+    else if (name == "T1" && family == Plant::fotd)
+      plant.T1 = number;
+    else if (name == "T1")
+      fail(option, fmt::format("T1 belongs to fotd, not to {}", to_string(family)));
+    else
+      fail(option, fmt::format("unknown name \"{}\"{}", name, suggestion(name, {"K", "Td", "T1"})));
+  }
+  if (const auto reason = why_invalid(plant)) fail(option, *reason);
+  return plant;
+}
+
+}  // namespace portrait::tools

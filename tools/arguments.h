@@ -1,0 +1,26 @@
+/// Arguments as users write them, turned into what the library takes. All throw InputError with the option's name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/loop/horizon.h"
+#include "engine/loop/real_plant.h"
+
+namespace portrait::tools {
+
+/// "0.25", "inf". `option` is for the message.
+double number_argument(std::string_view option, std::string_view text);
+
+/// A number of dead times above 0, or "auto".
+Horizon horizon_argument(std::string_view option, std::string_view text);
+
+Plant plant_family_argument(std::string_view option, std::string_view text);
+Prefilter prefilter_argument(std::string_view option, std::string_view text);
+
+/// "K=2.5,Td=0.4[,T1=3]" for a plant of this family; K is 1 when it is not given.
+RealPlant real_plant_argument(std::string_view option, std::string_view text, Plant family);
+
+}  // namespace portrait::tools
