@@ -7,6 +7,8 @@
 /// Reading trusts nothing the file says: sizes are held against the size of the file before memory is asked
 /// for, and a chunk's length and filters are checked before HDF5 decodes it, which HDF5 1.10 does not do.
 ///
+/// The parts behind this door: h5_call (errors), h5_driver (writing), h5_layout (types and shapes), h5_attributes.
+///
 /// REQUIRES: a File and its datasets are used by one thread at a time.
 #pragma once
 
@@ -23,6 +25,8 @@ class H5File;
 }  // namespace H5
 
 namespace portrait::h5 {
+
+struct WriteFault;
 
 /// How a value lies in the file, little endian; in memory the same type.
 enum class Element { real64, real32, uint8, uint64 };
@@ -43,7 +47,8 @@ struct Layout {
 struct Origin {
   std::string file;
   bool writing = false;
-  std::uint64_t bytes = 0;  ///< size of a file being read: nothing in it can be larger
+  std::uint64_t bytes = 0;            ///< size of a file being read: nothing in it can be larger
+  std::shared_ptr<WriteFault> fault;  ///< of a file being written
 };
 
 /// Something with attributes: the root group or a dataset.

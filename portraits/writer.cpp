@@ -40,6 +40,16 @@ void write_as(OutputColumn& column, std::uint64_t tile, const std::vector<double
   column.write(tile, std::as_bytes(std::span(stored)));
 }
 
+/// The last chance to notice a disk that loses what it is given.
+void check_readable(const TemporaryFile& written) {
+  try {
+    verify(written.path());
+  } catch (const IntegrityError& error) {
+    throw StoreError(fmt::format("{}: not published, for it does not read back as written: {}",
+                                 written.target().string(), error.what()));
+  }
+}
+
 }  // namespace
 
 /// The open file with its columns.
@@ -147,7 +157,7 @@ void PortraitWriter::publish(const RunFacts& facts) {
   PORTRAIT_CHECK(file_ != nullptr);
   file_->finish(facts);
   file_.reset();
-  verify(temporary_.path());
+  check_readable(temporary_);
   temporary_.publish(existing_);
 }
 

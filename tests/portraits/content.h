@@ -39,7 +39,8 @@ inline std::string grid_content(const Grid& grid) {
 
 inline std::string value_content(PortraitReader& portrait) {
   std::string all = raw(statuses_of(portrait, 0, portrait.settings()));
-  for (const Measure measure : portrait.grid().measures) all += raw(values_of(portrait, measure, 0, portrait.settings()));
+  for (const Measure measure : portrait.grid().measures)
+    all += raw(values_of(portrait, measure, 0, portrait.settings()));
   return all;
 }
 

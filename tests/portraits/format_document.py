@@ -49,6 +49,14 @@ def check_names(document, path):
     assert not missing, f"not described: {sorted(missing)}"
 
 
+def check_texts(path):
+    with h5py.File(path, "r") as file:
+        for item in [file, *file.values(), *file["tile_digests"].values()]:
+            for name in set(item.attrs) - DIMENSION_SCALES:
+                kind = h5py.check_string_dtype(item.attrs.get_id(name).dtype)
+                assert kind is None or (kind.encoding == "utf-8" and kind.length), (item.name, name, kind)
+
+
 def main():
     program, document_path = sys.argv[1:]
     with open(document_path, encoding="ascii") as file:
@@ -59,6 +67,7 @@ def main():
         check_dimensions(path)
         check_example(document, path)
         check_names(document, path)
+        check_texts(path)
 
 
 if __name__ == "__main__":

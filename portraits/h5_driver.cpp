@@ -1,0 +1,104 @@
+#include "portraits/h5_driver.h"
+
+#include <map>
+#include <mutex>
+
+#include "portraits/h5_call.h"
+
+namespace portrait::h5 {
+namespace {
+
+/// By the place where HDF5 keeps the file's descriptor, which both sides can ask for.
+class Faults {
+ public:
+  std::shared_ptr<WriteFault> at(const void* file) {
+    const std::lock_guard lock(mutex_);
+    auto& fault = faults_[file];
+    if (!fault) fault = std::make_shared<WriteFault>();
+    return fault;
+  }
+  void forget(const void* file) {
+    const std::lock_guard lock(mutex_);
+    faults_.erase(file);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<const void*, std::shared_ptr<WriteFault>> faults_;
+};
+
+Faults& faults() {
+  static Faults all;
+  return all;
+}
+
+/// The functions of HDF5's driver for plain files. It gives them away only with an open file.
+const H5FD_class_t& plain_driver() {
+  static const H5FD_class_t driver = [] {
+    H5FD_t* file = H5FDopen("/dev/null", H5F_ACC_RDONLY, H5P_DEFAULT, HADDR_UNDEF);
+    if (file == nullptr) throw CallFailed{};
+    const H5FD_class_t found = *file->cls;
+    called(H5FDclose(file));
+    return found;
+  }();
+  return driver;
+}
+
+const void* key_of(H5FD_t* file) {
+  void* descriptor = nullptr;
+  plain_driver().get_handle(file, H5P_DEFAULT, &descriptor);
+  return descriptor;
+}
+
+/// What HDF5 is told after something it asked for was tried: that it succeeded.
+herr_t remembered(WriteFault& fault, herr_t result) {
+  if (result >= 0) return 0;
+  fault.dropping = true;
+  fault.words = words_on(H5E_DEFAULT);
+  H5Eclear2(H5E_DEFAULT);
+  return 0;
+}
+
+herr_t write(H5FD_t* file, H5FD_mem_t type, hid_t list, haddr_t at, std::size_t size, const void* from) {
+  const std::shared_ptr<WriteFault> fault = faults().at(key_of(file));
+  return fault->dropping ? 0 : remembered(*fault, plain_driver().write(file, type, list, at, size, from));
+}
+
+herr_t truncate(H5FD_t* file, hid_t list, hbool_t closing) {
+  const std::shared_ptr<WriteFault> fault = faults().at(key_of(file));
+  return fault->dropping ? 0 : remembered(*fault, plain_driver().truncate(file, list, closing));
+}
+
+herr_t close(H5FD_t* file) {
+  const void* key = key_of(file);
+  const std::shared_ptr<WriteFault> fault = faults().at(key);
+  faults().forget(key);
+  return remembered(*fault, plain_driver().close(file));
+}
+
+hid_t registered() {
+  H5FD_class_t driver = plain_driver();
+  driver.name = "portrait";
+  driver.terminate = nullptr;
+  driver.write = write;
+  driver.truncate = truncate;
+  driver.close = close;
+  return called(H5FDregister(&driver));
+}
+
+}  // namespace
+
+void remember_failed_writes(const H5::FileAccPropList& list) {
+  static const hid_t driver = registered();
+  called(H5Pset_driver(list.getId(), driver, nullptr));
+}
+
+int& descriptor_of(const H5::H5File& file) {
+  void* descriptor = nullptr;
+  called(H5Fget_vfd_handle(file.getId(), H5P_DEFAULT, &descriptor));
+  return *static_cast<int*>(descriptor);
+}
+
+std::shared_ptr<WriteFault> fault_of(const H5::H5File& file) { return faults().at(&descriptor_of(file)); }
+
+}  // namespace portrait::h5
