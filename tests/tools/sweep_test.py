@@ -1,7 +1,6 @@
 """portrait sweep: the summary, the dry run, wrong grids, interruption, the same bits for any number of threads."""
 
-import os
-import re
+import resource
 import signal
 import subprocess
 import time
@@ -101,6 +100,18 @@ class Sweep(ProgramTest):
         sweep.send_signal(signal.SIGCONT)
         sweep.communicate(timeout=60)
         self.assertEqual(sweep.returncode, 130)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
+
+    def test_a_file_that_may_not_grow_is_reported_and_leaves_nothing(self):
+        self.write("g.toml", LONG_GRID.replace("count = 400", "count = 20"))
+
+        def limit_file_size():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (65536, 65536))
+
+        result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet", preexec_fn=limit_file_size)
+        self.assertEqual(result.code, 1)
+        self.assertRegex(result.err, r"^portrait: g\.h5.*File too large\n$")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
 
     def test_what_a_killed_run_left_is_mentioned(self):
