@@ -60,6 +60,8 @@ struct ShapeMeter {
   Lanes furthest, late;      ///< largest |x - x(inf)| of all, and over the last dead time
   Lanes tail;                ///< largest last coefficients: how far from resolved
 
+  bool is_late = false;  ///< the last dead time has begun
+
   void begin(Lanes at_rest) {
     rest = at_rest;
     last = rising = variation = largest = passed = late = tail = Lanes(0.0);
@@ -76,6 +78,7 @@ struct ShapeMeter {
     const Mask is_above = mask & (x > rest), is_below = mask & (x < rest);
     const Lanes to_rest = abs(x - rest), first = abs(x);
     furthest = select(mask, max(furthest, to_rest), furthest);
+    if (is_late) late = select(mask, max(late, to_rest), late);
     const Lanes second = select(is_above, below + x, above - x);
     const Lanes one = first + to_rest, two = max(one, second + to_rest);
     const Mask pulse = is_above | is_below;
@@ -106,8 +109,8 @@ struct ShapeMeter {
     go_on(slope.c[0], f, Lanes(-1.0), moves);
   }
 
-  /// The value at the end of a panel; `is_late` during the last dead time.
-  void pass(Lanes x, Mask active, bool is_late) {
+  /// The value at an edge of a panel.
+  void pass(Lanes x, Mask active) {
     passed = select(active, x, passed);
     if (is_late) late = select(active, max(late, abs(x - rest)), late);
   }

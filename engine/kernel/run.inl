@@ -303,13 +303,14 @@ class Run {
   }
 
   void watch_signal(ShapeMeter& meter, const Series& f, const Series& slope, const Now& at, bool may_jump) {
+    meter.is_late = at.interval >= late_from_;
     if (at.is_cut) return watch_cut(meter, f, slope, at);
     if (at.panel == 0 && (at.interval == 0 || may_jump)) meter.enter(value_at_start(f), at.active);
+    if (at.panel == 0 && meter.is_late) meter.pass(value_at_start(f), at.active);
     meter.watch(f, slope, at.half, at.active);
     const bool last_panel = at.panel == pack_.panels - 1;
     const bool last = last_panel && at.interval == intervals_ - 1;
-    if (last || (last_panel && (may_jump || at.look)) || at.interval >= late_from_)
-      meter.pass(value_at_end(f), at.active, at.interval >= late_from_);
+    if (last || (last_panel && (may_jump || at.look)) || meter.is_late) meter.pass(value_at_end(f), at.active);
     if (last) meter.finish(at.active);
     if (at.look) {
       const Lanes deviation = abs(f.c[0] - meter.rest) + rest_bound(f, 1);
@@ -321,7 +322,7 @@ class Run {
     const Series g = cut_off(f, at.end), g1 = cut_off(slope, at.end);
     if (at.panel == 0) meter.enter(value_at_start(g), at.active);
     meter.watch(g, g1, at.half, at.active);
-    meter.pass(value_at_end(g), at.active, true);
+    meter.pass(value_at_end(g), at.active);
     const Mask last = but_not(at.active, at.end > Lanes(1.0 - 1e-15));
     if (any(last)) meter.finish(last);
     if (at.panel == pack_.panels - 1) meter.finish(but_not(at.active, last));

@@ -34,6 +34,13 @@ inline double error_of(double a, double b) {
   return std::abs(a - b) / std::max(1e-3, std::abs(b));
 }
 
+/// The total variation of the same signal, of which TV0, TV1, TV2 are differences.
+inline double variation_of_signal(const MeasureRow& row, Measure m) {
+  const std::string name(to_string(m));
+  if (name.rfind("TV", 0) != 0) return 0;
+  return row[*measure_named("TV" + name.substr(name.find('_')))];
+}
+
 struct Worst {
   double error = 0;
   std::string where = "nowhere";
@@ -70,7 +77,9 @@ inline Errors errors_over(const kernel::Implementation& implementation, int coun
     errors.unresolved += fast.resolved ? 0 : 1;
     errors.status_differs += fast.status == slow.status ? 0 : 1;
     for (const Measure m : response_measures()) {
-      const double error = error_of(fast.measures[m], slow.measures[m]);
+      double error = error_of(fast.measures[m], slow.measures[m]);
+      const double variation = variation_of_signal(slow.measures, m);
+      if (variation > 1e-3) error = std::min(error, std::abs(fast.measures[m] - slow.measures[m]) / variation);
       const bool integral = m == Measure::IAE_w || m == Measure::IAE_d;
       (integral ? errors.integral : errors.variation).take(error, loop, m);
     }

@@ -87,13 +87,6 @@ TEST_P(Responses, NeighboursDoNotMatter) {
   }
 }
 
-/// The total variation of the same signal, of which TV0, TV1, TV2 are differences.
-double variation_of_signal(const MeasureRow& row, Measure m) {
-  const std::string name(to_string(m));
-  if (name.rfind("TV", 0) != 0) return 0;
-  return row[*measure_named("TV" + name.substr(name.find('_')))];
-}
-
 /// Largest difference between instruction sets over random loops, as a part of the signal's variation.
 Worst difference_between_isas(int count, bool (*belongs)(const Loop&)) {
   oracle::Random random(3);
