@@ -23,5 +23,8 @@ function(portrait_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_USES} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE PORTRAIT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(PORTRAIT_SANITIZE)
+    target_compile_definitions(${name} PRIVATE PORTRAIT_SANITIZED)  # many times slower: fewer random cases will do
+  endif()
   gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -6,8 +6,14 @@
 namespace portrait {
 namespace {
 
+#ifdef PORTRAIT_SANITIZED
+constexpr int kLoops = 1'000;
+#else
+constexpr int kLoops = 10'000;
+#endif
+
 TEST(ManyResponses, EqualTheReference) {
-  const Errors errors = errors_over(*available_implementations().back(), 10'000, 42);
+  const Errors errors = errors_over(*available_implementations().back(), kLoops, 42);
   EXPECT_LT(errors.integral.error, 1e-8) << errors.integral.where;
   EXPECT_LT(errors.variation.error, 1e-7) << errors.variation.where;
   EXPECT_EQ(errors.unresolved, 0);
