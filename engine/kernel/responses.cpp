@@ -164,11 +164,12 @@ void measure_alike(const Implementation& implementation, const LoopFamily& famil
   PackOfSettings pack(implementation, family, settings, horizon, own_run);
   for (const int panels : kPanelCounts) {
     PackResult result;
-    implementation.run(pack.cut_into(panels), result);
+    const Pack& cut = pack.cut_into(panels);
+    implementation.run(cut, result);
     bool all = true;
     for (std::size_t lane = 0; lane < settings.size(); ++lane) {
       if (results[lane].resolved) continue;
-      results[lane] = measured(pack.cut_into(panels), result, lane, horizon.automatic);
+      results[lane] = measured(cut, result, lane, horizon.automatic);
       all = all && results[lane].resolved;
     }
     if (all) return;

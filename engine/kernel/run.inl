@@ -215,7 +215,6 @@ class Run {
       const Series w = setup.filter.slope(state_input, filter_state_[i]);
       Series v = state_input;
       add_scaled(v, -tau_f_, w);
-      if (both_ && has_g2_) f.v[4] = f.v[3];
       const Series w1 = scaled_difference(rate, f.v[1], w);
       if (both_ && (has_g1_ || has_g2_)) {
         const Series w2 = scaled_difference(rate, f.v[2], w1);

@@ -12,7 +12,7 @@
 /// below 1, -1 where it rises above.
 /// accuracy  right for loops 1e-9 from the boundary on either side, by kappa, where that much gain turns the
 ///           phase at the crossover by more than rounding does: tests/engine/loop/stability_test.cpp
-/// cost      a few microseconds
+/// cost      the positive roots of one small polynomial
 #pragma once
 
 #include "engine/loop/open_loop.h"
