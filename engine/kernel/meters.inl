@@ -1,51 +1,14 @@
 /// What is kept of a response while it runs: accumulators that are fed panel by panel, in order of time.
 ///
-/// Extremes and sign changes are located, never sampled: a series that its first terms keep away from zero needs nothing
-/// but that test; only where it fails the panel is cut in halves until the test, or the same test on the derivative,
-/// decides. In the common case a panel costs a sum of magnitudes and one comparison.
+/// Extremes and sign changes are located, never sampled: a series that its first term keeps away from zero needs nothing
+/// but that test, a sum of magnitudes and a comparison; only where it fails zeros.inl is asked.
 #pragma once
 
-#include "engine/kernel/legendre.inl"
+#include "engine/kernel/zeros.inl"
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
-/// A part of a panel: x = center + half * local, local in [-1, 1].
-struct Part {
-  Lanes center, half;
-  Part left() const { return {center - Lanes(0.5) * half, Lanes(0.5) * half}; }
-  Part right() const { return {center + Lanes(0.5) * half, Lanes(0.5) * half}; }
-  Lanes at(Lanes local) const { return mul_add(half, local, center); }
-};
-
-inline constexpr int kHalvings = 8;
 inline constexpr double kNegligible = 1e-14;
-
-/// x f(x): x P_k = ((k+1) P_{k+1} + k P_{k-1})/(2k + 1), the highest term dropped.
-inline Series times_x(const Series& f) {
-  Series g;
-  g.c[0] = f.c[1] * Lanes(1.0 / 3);
-  for (int k = 1; k < kDegree; ++k)
-    g.c[k] = mul_add(f.c[k - 1], Lanes(static_cast<double>(k) / (2 * k - 1)),
-                     f.c[k + 1] * Lanes((k + 1.0) / (2 * k + 3)));
-  g.c[kDegree] = f.c[kDegree - 1] * Lanes(static_cast<double>(kDegree) / (2 * kDegree - 1));
-  return g;
-}
-
-/// The zero of a monotonic f that changes sign on [-1, 1]: Newton, kept inside the bracket.
-inline Lanes bracketed_zero(const Series& f, const Series& slope, Lanes at_left, Lanes at_right) {
-  Lanes left = -1.0, right = 1.0;
-  Lanes x = (at_left + at_right) / (at_left - at_right);  // regula falsi
-  for (int i = 0; i < 7; ++i) {
-    const Lanes here = value(f, x);
-    const Mask same_as_left = here * at_left > Lanes(0.0);
-    left = select(same_as_left, x, left);
-    right = select(same_as_left, right, x);
-    const Lanes newton = x - here / value(slope, x);
-    const Mask outside = (newton < left) | (newton > right);
-    x = select(outside, Lanes(0.5) * (left + right), newton);
-  }
-  return x;
-}
 
 /// Total variation, distance from shapes with at most one and two pulses, and largest magnitude of a signal that starts from
 /// x(0-) = 0. See engine/measures/variation.h for the definitions.
@@ -98,15 +61,14 @@ struct ShapeMeter {
   }
 
   /// One panel: f, f' per dead time, half the panel's length.
-  void watch(const Series& f, const Series& slope, Lanes half, Mask active) {
-    tail = select(active, max(tail, abs(f.c[kDegree]) + abs(f.c[kDegree - 1])), tail);
-    const Lanes first = abs(slope.c[0]), rest_of_slope = rest_bound(slope, 1);
+  void watch(const Series& f, const Series& slope, double half, Mask active) {
+    tail = select(active, max(tail, abs(f[kDegree]) + abs(f[kDegree - 1])), tail);
+    const Lanes first = abs(slope[0]), rest_of_slope = rest_bound(slope, 1);
     // What moves less than rounding has no direction.
-    const Lanes noise = Lanes(kNegligible) * (largest + abs(f.c[0]));
-    const Mask moves = active & (half * (first + rest_of_slope) > noise);
-    const Mask unsure = but_not(moves, first > rest_of_slope);
-    if (any(unsure)) return watch_closely(f, slope, moves);
-    go_on(slope.c[0], f, Lanes(-1.0), moves);
+    const Lanes noise = Lanes(kNegligible) * (largest + abs(f[0]));
+    const Mask moves = active & (Lanes(half) * (first + rest_of_slope) > noise);
+    if (any(but_not(moves, first > rest_of_slope))) return watch_closely(f, slope, half, moves);
+    go_on(slope[0], f, -1.0, moves);
   }
 
   /// The value at an edge of a panel.
@@ -121,40 +83,43 @@ struct ShapeMeter {
   Lanes deviation(Lanes shape) const { return max(Lanes(0.0), variation + abs(rest - last) - shape); }
 
  private:
+  /// What zeros.inl finds of f' on one panel.
+  struct SlopeVisitor {
+    ShapeMeter& meter;
+    const Series& f;
+    double half;
+
+    void keeps_sign(const Series& slope, const Part& part, Mask mask) {
+      meter.go_on(slope[0], f, part.start(), mask);
+    }
+
+    void may_cross(const Series& slope, const Series& curvature, const Part& part, const Ends& ends, Mask mask) {
+      meter.go_on(ends.left, f, part.start(), mask & (abs(ends.left) > Lanes(0.0)));
+      const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
+      if (any(crosses)) meter.turn(extreme(slope, curvature, part, ends, crosses), crosses);
+      const Lanes direction = select(ends.right > Lanes(0.0), Lanes(1.0), Lanes(-1.0));
+      meter.rising = select(mask & (abs(ends.right) > Lanes(0.0)), direction, meter.rising);
+    }
+
+    /// f where its slope vanishes: from x on Newton's last step adds (step/2) f'(x), f' by the panel's x.
+    Lanes extreme(const Series& slope, const Series& curvature, const Part& part, const Ends& ends, Mask mask) {
+      const Zero zero = zero_of(slope, curvature, ends, mask);
+      const Lanes left_over = Lanes(0.5 * half * part.half) * zero.step * value(slope, zero.x);
+      return value(f, part.at(zero.x)) + left_over;
+    }
+  };
+
   /// From x = `from` on f goes on monotonically in the direction of `slope`.
-  void go_on(Lanes slope, const Series& f, Lanes from, Mask mask) {
+  void go_on(Lanes slope, const Series& f, double from, Mask mask) {
     const Lanes direction = select(slope > Lanes(0.0), Lanes(1.0), Lanes(-1.0));
     const Mask turned = mask & (direction * rising < Lanes(0.0));
     if (any(turned)) turn(value(f, from), turned);
     rising = select(mask, direction, rising);
   }
 
-  __attribute__((noinline)) void watch_closely(const Series& f, const Series& slope, Mask moves) {
-    search(f, slope, {Lanes(0.0), Lanes(1.0)}, moves, kHalvings);
-  }
-
-  void search(const Series& f, const Series& slope, const Part& part, Mask mask, int halvings_left) {
-    const Mask sure = mask & has_no_zero(slope);
-    if (any(sure)) go_on(slope.c[0], f, part.at(-1.0), sure);
-    const Mask open = but_not(mask, sure);
-    if (!any(open)) return;
-    const Series curvature = derivative(slope);
-    const Mask monotonic = halvings_left == 0 ? open : open & has_no_zero(curvature);
-    if (any(monotonic)) pass_zero(f, slope, curvature, part, monotonic);
-    const Mask undecided = but_not(open, monotonic);
-    if (!any(undecided)) return;
-    search(f, left_half(slope), part.left(), undecided, halvings_left - 1);
-    search(f, right_half(slope), part.right(), undecided, halvings_left - 1);
-  }
-
-  /// `slope` is monotonic in the lanes of `mask`: it has one zero or none.
-  void pass_zero(const Series& f, const Series& slope, const Series& curvature, const Part& part, Mask mask) {
-    const Lanes left = value_at_start(slope), right = value_at_end(slope);
-    go_on(left, f, part.at(-1.0), mask & (abs(left) > Lanes(0.0)));
-    const Mask crosses = mask & (left * right < Lanes(0.0));
-    if (any(crosses)) turn(value(f, part.at(bracketed_zero(slope, curvature, left, right))), crosses);
-    const Lanes direction = select(right > Lanes(0.0), Lanes(1.0), Lanes(-1.0));
-    rising = select(mask & (abs(right) > Lanes(0.0)), direction, rising);
+  __attribute__((noinline)) void watch_closely(const Series& f, const Series& slope, double half, Mask moves) {
+    SlopeVisitor visitor{*this, f, half};
+    search_zeros(slope, {0, 1}, moves, kHalvings, visitor);
   }
 };
 
@@ -165,62 +130,74 @@ struct ErrorMeter {
   void begin() { iae = ise = itae = itse = Lanes(0.0); }
 
   /// One panel of half length `half` around the time `middle`.
-  void watch(const Series& e, Lanes middle, Lanes half, Mask active) {
+  void watch(const Series& e, double middle, double half, Mask active) {
     add_squares(e, middle, half, active);
-    const Mask sure = clearly_has_no_zero(e);
-    if (!any(but_not(active, sure))) return add_magnitude(e, middle, half, active);
-    const Mask nonzero = active & (rest_bound(e, 0) > Lanes(0.0));
-    if (any(nonzero)) search(e, {middle, half}, nonzero, kHalvings);
+    const Lanes first = abs(e[0]), rest = rest_bound(e, 1);
+    const Mask open = but_not(active, first > rest);
+    if (!any(open)) return add_magnitude(e, {middle, half}, active);
+    search(e, {middle, half}, active & (first + rest > Lanes(0.0)));
   }
 
  private:
-  void add_squares(const Series& e, Lanes middle, Lanes half, Mask active) {
-    Lanes squares = e.c[0] * e.c[0], moments = Lanes(0.0);
-    for (int k = 1; k < kTerms; ++k) {
-      const Lanes scaled = e.c[k] * Lanes(1.0 / (2 * k + 1));
-      squares = mul_add(e.c[k], scaled, squares);
-      moments = mul_add(scaled * Lanes(2.0 * k / (2 * k - 1)), e.c[k - 1], moments);
+  struct ErrorVisitor {
+    ErrorMeter& meter;
+    void keeps_sign(const Series& e, const Part& part, Mask mask) { meter.add_magnitude(e, part, mask); }
+    void may_cross(const Series& e, const Series& slope, const Part& part, const Ends& ends, Mask mask) {
+      const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
+      meter.add_magnitude(e, part, but_not(mask, crosses));
+      if (any(crosses)) meter.add_both_signs(e, slope, part, ends, crosses);
     }
-    const Lanes length = Lanes(2.0) * half;
-    ise = select(active, mul_add(length, squares, ise), ise);
-    itse = select(active, mul_add(length, mul_add(middle, squares, half * moments), itse), itse);
+  };
+
+  __attribute__((noinline)) void search(const Series& e, const Part& part, Mask mask) {
+    ErrorVisitor visitor{*this};
+    search_zeros(e, part, mask, kHalvings, visitor);
   }
 
-  /// e keeps its sign.
-  void add_magnitude(const Series& e, Lanes middle, Lanes half, Mask mask) {
-    const Lanes length = Lanes(2.0) * half;
-    iae = select(mask, mul_add(length, abs(e.c[0]), iae), iae);
-    const Lanes moment = mul_add(middle, e.c[0], half * e.c[1] * Lanes(1.0 / 3));
+  /// int P_j^2 = 2/(2j+1), int x P_j P_{j-1} = 2j/((2j-1)(2j+1)).
+  void add_squares(const Series& e, double middle, double half, Mask active) {
+    Lanes squares = e[0] * e[0], moments = Lanes(0.0);
+    for (int k = 1; k < kTerms; ++k) {
+      const Lanes scaled = e[k] * Lanes(1.0 / (2 * k + 1));
+      squares = mul_add(e[k], scaled, squares);
+      moments = mul_add(scaled * Lanes(2.0 * k / (2 * k - 1)), e[k - 1], moments);
+    }
+    ise = select(active, mul_add(Lanes(2 * half), squares, ise), ise);
+    const Lanes moment = mul_add(Lanes(middle), squares, Lanes(half) * moments);
+    itse = select(active, mul_add(Lanes(2 * half), moment, itse), itse);
+  }
+
+  /// e keeps its sign. Part: the time here.
+  void add_magnitude(const Series& e, const Part& part, Mask mask) {
+    const Lanes length = 2 * part.half;
+    iae = select(mask, mul_add(length, abs(e[0]), iae), iae);
+    const Lanes moment = mul_add(Lanes(part.center), e[0], Lanes(part.half / 3) * e[1]);
     itae = select(mask, mul_add(length, abs(moment), itae), itae);
   }
 
-  __attribute__((noinline)) void search(const Series& e, const Part& part, Mask mask, int halvings_left) {
-    const Mask sure = mask & has_no_zero(e);
-    if (any(sure)) add_magnitude(e, part.center, part.half, sure);
-    const Mask open = but_not(mask, sure);
-    if (!any(open)) return;
-    const Series slope = derivative(e);
-    const Mask monotonic = halvings_left == 0 ? open : open & has_no_zero(slope);
-    if (any(monotonic)) pass_zero(e, slope, part, monotonic);
-    const Mask undecided = but_not(open, monotonic);
-    if (!any(undecided)) return;
-    search(left_half(e), part.left(), undecided, halvings_left - 1);
-    search(right_half(e), part.right(), undecided, halvings_left - 1);
-  }
-
-  void pass_zero(const Series& e, const Series& slope, const Part& part, Mask mask) {
-    const Lanes left = value_at_start(e), right = value_at_end(e);
-    const Mask crosses = mask & (left * right < Lanes(0.0));
-    add_magnitude(e, part.center, part.half, but_not(mask, crosses));
-    if (!any(crosses)) return;
-    const Lanes x = bracketed_zero(e, slope, left, right);
-    const Series sum = integral(e, 1.0, 0.0), moment_sum = integral(times_x(e), 1.0, 0.0);
-    const Lanes all = value_at_end(sum), until = value(sum, x);
-    const Lanes all_moment = value_at_end(moment_sum), until_moment = value(moment_sum, x);
-    iae = select(crosses, mul_add(part.half, abs(until) + abs(all - until), iae), iae);
-    const Lanes before = mul_add(part.center, until, part.half * until_moment);
-    const Lanes after = mul_add(part.center, all - until, part.half * (all_moment - until_moment));
-    itae = select(crosses, mul_add(part.half, abs(before) + abs(after), itae), itae);
+  /// e changes its sign once: both integrals from the left end to there, and the rest. int_{-1}^x P_k and
+  /// int_{-1}^x s P_k(s) ds are sums of two and four polynomials; Newton's last step adds half of itself times e(x).
+  void add_both_signs(const Series& e, const Series& slope, const Part& part, const Ends& ends, Mask mask) {
+    const Zero zero = zero_of(e, slope, ends, mask);
+    Series by_x;
+    set_times_x(by_x, e);
+    Lanes P[kTerms + 1];
+    for_each_polynomial<kTerms>(zero.x, [&](int k, Lanes here) { P[k] = here; });
+    Lanes until = e[0] * (zero.x + Lanes(1.0)), moment_until = by_x[0] * (zero.x + Lanes(1.0)), here = e[0];
+    for (int k = 1; k < kTerms; ++k) {
+      const Lanes integral = (P[k + 1] - P[k - 1]) * Lanes(1.0 / (2 * k + 1));
+      until = mul_add(e[k], integral, until);
+      moment_until = mul_add(by_x[k], integral, moment_until);
+      here = mul_add(e[k], P[k], here);
+    }
+    const Lanes left_over = Lanes(0.5) * zero.step * here;
+    until += left_over;
+    moment_until = mul_add(zero.x, left_over, moment_until);
+    const Lanes rest = Lanes(2.0) * e[0] - until, moment_rest = Lanes(2.0) * by_x[0] - moment_until;
+    iae = select(mask, mul_add(Lanes(part.half), abs(until) + abs(rest), iae), iae);
+    const Lanes before = mul_add(Lanes(part.center), until, Lanes(part.half) * moment_until);
+    const Lanes after = mul_add(Lanes(part.center), rest, Lanes(part.half) * moment_rest);
+    itae = select(mask, mul_add(Lanes(part.half), abs(before) + abs(after), itae), itae);
   }
 };
 

@@ -7,7 +7,8 @@
 namespace portrait::kernel {
 
 inline constexpr int kMaxLanes = 16;
-inline constexpr int kMaxPanels = 24;
+inline constexpr int kMaxPanels = 40;
+inline constexpr int kMaxFilters = 16;
 
 enum class PlantKind { dipdt, ipdt, fotd };
 
@@ -17,20 +18,30 @@ enum class SetpointRun {
   lag,               ///< a run of its own behind the prefilter (1 + b_r s)/(1 + a1 s)
 };
 
+/// How a dead time is cut into panels, for all lanes alike: the first panel 2^-graded of it, each further one as long as all
+/// before it together; then every panel in halves, `halved` times.
+///
+///     graded = 0: |----------------|      graded = 2: |---|---|-------|
+struct Mesh {
+  int graded;
+  int halved;
+};
+constexpr int panels_of(const Mesh& mesh) { return (mesh.graded + 1) << mesh.halved; }
+
 using PackColumn = double[kMaxLanes];
 
 struct Pack {
   PlantKind plant;
   int n;  ///< filter order
   SetpointRun setpoint_run;
-  double horizon;  ///< dead times
-  int panels;      ///< a dead time is cut into so many, each lane at its own places
+  double horizon;         ///< dead times
+  Mesh mesh;              ///< while layers of the fast time constants matter, after every dead time anew
+  int layered_intervals;  ///< so many dead times; from then on `graded` is 0
 
   PackColumn kappa, integral_gain, delta, tau_1, tau_f;  ///< integral_gain = kappa/tau_i, 0 without integral action
   PackColumn g0, g1, g2;                                 ///< y_w = -(g0 int v + g1 v + g2 v')
   PackColumn a1, b_r;
   PackColumn y_rest_w, u_rest_w, y_rest_d, u_rest_d;
-  double panel_length[kMaxPanels][kMaxLanes];  ///< from left to right, sum 1
 };
 
 /// One step's measures.

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "engine/base/check.h"
+#include "engine/kernel/resolution.h"
 #include "engine/loop/steady_state.h"
 
 namespace portrait::kernel {
 namespace {
 
-/// Panels a dead time is cut into, from one attempt to the next.
-constexpr std::array<int, 6> kPanelCounts = {1, 2, 4, 8, 16, 24};
 /// Last coefficients of u and y, as a part of the signal, that count as died out.
 constexpr double kResolved = 1e-8;
 constexpr double kSettlingBand = 0.01;
@@ -45,76 +47,48 @@ double fastest(const LoopFamily& family, const Setting& s, bool own_run) {
   return time;
 }
 
-/// First length of a geometric row of `count` panels that adds up to 1, and their ratio.
-struct Row {
-  double first, ratio;
+/// Settings that may lie side by side in a pack.
+struct Kind {
+  bool own_run;
+  Resolution resolution;
+
+  auto key() const {
+    return std::tuple(own_run, resolution.mesh.graded, resolution.mesh.halved, resolution.layered_intervals);
+  }
 };
 
-/// The first panel is 4 T long, over which a layer e^{-t/T} fades to e^{-4}; of more than four panels it takes a smaller
-/// share of T.
-Row row_of(int count, double T) {
-  const double first = std::min(1.0 / count, 4 * T * std::min(1.0, 4.0 / count));
-  double low = 1, high = 1e6;
-  for (int i = 0; i < 60; ++i) {
-    const double ratio = std::sqrt(low * high);
-    double sum = 0, length = first;
-    for (int p = 0; p < count; ++p, length *= ratio) sum += length;
-    (sum < 1 ? low : high) = ratio;
-  }
-  return {first, low};
+Kind kind_of(const LoopFamily& family, const Setting& s) {
+  const bool own_run = needs_own_setpoint_run(family, s);
+  return {own_run, first_resolution({family, s}, fastest(family, s, own_run))};
 }
 
-class PackOfSettings {
- public:
-  PackOfSettings(const Implementation& implementation, const LoopFamily& family, std::span<const Setting> settings,
-                 Horizon horizon, bool own_run)
-      : family_(family), own_run_(own_run) {
-    pack_.plant = static_cast<PlantKind>(family.plant);
-    pack_.n = family.n;
-    pack_.setpoint_run = own_run ? SetpointRun::lag : SetpointRun::from_disturbance;
-    pack_.horizon = horizon.automatic ? kHorizonCap : horizon.dead_times;
-    for (int lane = 0; lane < implementation.lanes; ++lane)
-      fill(lane, settings[std::min<std::size_t>(static_cast<std::size_t>(lane), settings.size() - 1)]);
-  }
+void fill_lane(Pack& pack, std::size_t lane, const Loop& loop) {
+  const Setting& s = loop.setting;
+  const Gains g = setpoint_gains(loop.family, s);
+  const SteadyState w = rest_after_setpoint_step(loop), d = rest_after_disturbance_step(loop);
+  const bool own_run = pack.setpoint_run == SetpointRun::lag;
+  pack.kappa[lane] = s.kappa;
+  pack.integral_gain[lane] = has_integral_action(s) ? s.kappa / s.tau_i : 0;
+  pack.delta[lane] = s.delta;
+  pack.tau_1[lane] = s.tau_1;
+  pack.tau_f[lane] = s.tau_f;
+  pack.g0[lane] = g.g0, pack.g1[lane] = g.g1, pack.g2[lane] = g.g2;
+  pack.a1[lane] = own_run ? s.tau_i : 1;
+  pack.b_r[lane] = own_run ? s.b * s.tau_i : 0;
+  pack.y_rest_w[lane] = w.y, pack.u_rest_w[lane] = w.u;
+  pack.y_rest_d[lane] = d.y, pack.u_rest_d[lane] = d.u;
+}
 
-  const Pack& cut_into(int panels) {
-    pack_.panels = panels;
-    for (int lane = 0; lane < kMaxLanes; ++lane) cut_lane(lane, panels);
-    return pack_;
-  }
-
- private:
-  void fill(int lane, const Setting& s) {
-    const Loop loop{family_, s};
-    const Gains g = setpoint_gains(family_, s);
-    const SteadyState w = rest_after_setpoint_step(loop), d = rest_after_disturbance_step(loop);
-    pack_.kappa[lane] = s.kappa;
-    pack_.integral_gain[lane] = has_integral_action(s) ? s.kappa / s.tau_i : 0;
-    pack_.delta[lane] = s.delta;
-    pack_.tau_1[lane] = s.tau_1;
-    pack_.tau_f[lane] = s.tau_f;
-    pack_.g0[lane] = g.g0, pack_.g1[lane] = g.g1, pack_.g2[lane] = g.g2;
-    pack_.a1[lane] = own_run_ ? s.tau_i : 1;
-    pack_.b_r[lane] = own_run_ ? s.b * s.tau_i : 0;
-    pack_.y_rest_w[lane] = w.y, pack_.u_rest_w[lane] = w.u;
-    pack_.y_rest_d[lane] = d.y, pack_.u_rest_d[lane] = d.u;
-    fastest_[lane] = fastest(family_, s, own_run_);
-  }
-
-  void cut_lane(int lane, int panels) {
-    const Row row = row_of(panels, fastest_[lane]);
-    double length = row.first, sum = 0;
-    for (int p = 0; p < panels; ++p, length *= row.ratio) {
-      pack_.panel_length[p][lane] = p == panels - 1 ? 1 - sum : length;
-      sum += length;
-    }
-  }
-
-  LoopFamily family_;
-  bool own_run_;
-  Pack pack_{};
-  std::array<double, kMaxLanes> fastest_{};
-};
+Pack pack_for(const LoopFamily& family, const Kind& kind, Horizon horizon) {
+  Pack pack{};
+  pack.plant = static_cast<PlantKind>(family.plant);
+  pack.n = family.n;
+  pack.setpoint_run = kind.own_run ? SetpointRun::lag : SetpointRun::from_disturbance;
+  pack.horizon = horizon.automatic ? kHorizonCap : horizon.dead_times;
+  pack.mesh = kind.resolution.mesh;
+  pack.layered_intervals = kind.resolution.layered_intervals;
+  return pack;
+}
 
 struct StepMeasures {
   Measure IAE;
@@ -157,24 +131,66 @@ LaneMeasured measured(const Pack& pack, const PackResult& result, std::size_t la
   return m;
 }
 
-/// All of one kind of setpoint run: takes what is resolved and goes on with the rest on finer panels.
-void measure_alike(const Implementation& implementation, const LoopFamily& family,
-                   std::span<const Setting> settings, Horizon horizon, bool own_run,
-                   std::span<LaneMeasured> results) {
-  PackOfSettings pack(implementation, family, settings, horizon, own_run);
-  for (const int panels : kPanelCounts) {
-    PackResult result;
-    const Pack& cut = pack.cut_into(panels);
-    implementation.run(cut, result);
-    bool all = true;
-    for (std::size_t lane = 0; lane < settings.size(); ++lane) {
-      if (results[lane].resolved) continue;
-      results[lane] = measured(cut, result, lane, horizon.automatic);
-      all = all && results[lane].resolved;
-    }
-    if (all) return;
+/// A setting still to be measured.
+struct Task {
+  std::size_t setting;
+  Kind kind;
+};
+
+class Measurement {
+ public:
+  Measurement(const Implementation& implementation, const LoopFamily& family, std::span<const Setting> settings,
+              Horizon horizon, std::span<LaneMeasured> results)
+      : implementation_(implementation), family_(family), settings_(settings), horizon_(horizon), results_(results) {
+    for (std::size_t i = 0; i < settings.size(); ++i) tasks_.push_back({i, kind_of(family, settings[i])});
   }
-}
+
+  /// Settings of one kind go side by side; those that are not resolved come back on finer panels.
+  void run() {
+    while (!tasks_.empty()) {
+      std::stable_sort(tasks_.begin(), tasks_.end(),
+                       [](const Task& a, const Task& b) { return a.kind.key() < b.kind.key(); });
+      const std::vector<Task> tasks = std::exchange(tasks_, {});
+      for (auto first = tasks.begin(); first != tasks.end();) {
+        const auto last = std::find_if(first, tasks.end(),
+                                       [&](const Task& t) { return t.kind.key() != first->kind.key(); });
+        run_alike({first, last});
+        first = last;
+      }
+    }
+  }
+
+ private:
+  void run_alike(std::span<const Task> tasks) {
+    const auto lanes = static_cast<std::size_t>(implementation_.lanes);
+    for (; !tasks.empty(); tasks = tasks.subspan(std::min(lanes, tasks.size())))
+      run_pack(tasks.first(std::min(lanes, tasks.size())));
+  }
+
+  void run_pack(std::span<const Task> tasks) {
+    Pack pack = pack_for(family_, tasks.front().kind, horizon_);
+    for (std::size_t lane = 0; lane < kMaxLanes; ++lane)
+      fill_lane(pack, lane, {family_, settings_[tasks[std::min(lane, tasks.size() - 1)].setting]});
+    PackResult result;
+    implementation_.run(pack, result);
+    for (std::size_t lane = 0; lane < tasks.size(); ++lane) {
+      LaneMeasured& m = results_[tasks[lane].setting];
+      m = measured(pack, result, lane, horizon_.automatic);
+      if (!m.resolved) try_finer(tasks[lane]);
+    }
+  }
+
+  void try_finer(const Task& task) {
+    if (const auto next = finer(task.kind.resolution)) tasks_.push_back({task.setting, {task.kind.own_run, *next}});
+  }
+
+  const Implementation& implementation_;
+  LoopFamily family_;
+  std::span<const Setting> settings_;
+  Horizon horizon_;
+  std::span<LaneMeasured> results_;
+  std::vector<Task> tasks_;
+};
 
 }  // namespace
 
@@ -183,20 +199,8 @@ bool kernel_takes(const LoopFamily& family) { return !(family.n == 0 && family.p
 void measure_responses(const Implementation& implementation, const LoopFamily& family,
                        std::span<const Setting> settings, Horizon horizon, std::span<LaneMeasured> results) {
   PORTRAIT_CHECK(kernel_takes(family));
-  PORTRAIT_CHECK(!settings.empty() && settings.size() <= static_cast<std::size_t>(implementation.lanes));
   PORTRAIT_CHECK_EQ(settings.size(), results.size());
-  for (LaneMeasured& result : results) result = {};
-  std::array<std::size_t, kMaxLanes> place{};
-  for (const bool own_run : {false, true}) {
-    std::array<Setting, kMaxLanes> alike;
-    std::array<LaneMeasured, kMaxLanes> found;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < settings.size(); ++i)
-      if (needs_own_setpoint_run(family, settings[i]) == own_run) alike[count] = settings[i], place[count++] = i;
-    if (count == 0) continue;
-    measure_alike(implementation, family, {alike.data(), count}, horizon, own_run, {found.data(), count});
-    for (std::size_t i = 0; i < count; ++i) results[place[i]] = found[i];
-  }
+  Measurement(implementation, family, settings, horizon, results).run();
 }
 
 }  // namespace portrait::kernel

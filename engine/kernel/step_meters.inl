@@ -1,0 +1,81 @@
+/// Everything that is metered of one step, and which part of a response a panel is.
+#pragma once
+
+#include "engine/kernel/meters.inl"
+#include "engine/kernel/pack.h"
+
+namespace portrait::PORTRAIT_ISA_NAME {
+
+/// The instants that matter to a response, in whole dead times and panels.
+struct Span {
+  int intervals;    ///< begun up to the horizon
+  int late_from;    ///< the last dead time begins here
+  double fraction;  ///< of the last interval that counts; 0 for all of it
+
+  explicit Span(double horizon) {
+    const int whole = static_cast<int>(horizon);
+    fraction = horizon - whole;
+    intervals = whole + (fraction > 0 ? 1 : 0);
+    late_from = horizon > 1 ? static_cast<int>(horizon - 1) : 0;
+  }
+};
+
+/// Where a panel stands in a response. `end`: x up to which it counts; 1 but on the panel that the horizon cuts.
+struct Place {
+  double middle, half, end;
+  bool first_of_all, first_of_interval, last_of_interval, last_of_all, late;
+  bool look;  ///< whether the signals are quiet is asked
+  bool is_cut() const { return end < 1; }
+};
+
+struct StepMeters {
+  ShapeMeter y, u;
+  ErrorMeter e;
+
+  void begin(Lanes y_rest, Lanes u_rest) {
+    y.begin(y_rest);
+    u.begin(u_rest);
+    e.begin();
+  }
+};
+
+/// What stays within this part of its largest deviation from rest, over a dead time, is at rest for good.
+inline constexpr double kQuiet = 1e-13;
+
+inline void watch_cut(ShapeMeter& meter, const Series& f, const Series& slope, const Place& at, Mask active) {
+  Series g, g1;
+  set_cut_off(g, f, at.end);
+  set_cut_off(g1, slope, at.end);
+  if (at.first_of_interval) meter.enter(value_at_start(g), active);
+  meter.watch(g, g1, 0.5 * at.half * (at.end + 1), active);
+  meter.pass(value_at_end(g), active);
+}
+
+/// One panel of a signal; lanes that are not at rest leave `quiet` when asked.
+inline void watch_signal(ShapeMeter& meter, const Series& f, const Series& slope, const Place& at, bool may_jump,
+                         Mask active, Mask& quiet) {
+  meter.is_late = at.late;
+  if (at.is_cut()) {
+    watch_cut(meter, f, slope, at, active);
+  } else {
+    if (at.first_of_all || (at.first_of_interval && may_jump)) meter.enter(value_at_start(f), active);
+    if (at.first_of_interval && at.late) meter.pass(value_at_start(f), active);
+    meter.watch(f, slope, at.half, active);
+    if (at.late || at.last_of_all || (at.last_of_interval && (may_jump || at.look)))
+      meter.pass(value_at_end(f), active);
+  }
+  if (at.last_of_all) meter.finish(active);
+  if (!at.look) return;
+  const Lanes deviation = abs(f[0] - meter.rest) + rest_bound(f, 1);
+  quiet = quiet & (deviation < Lanes(kQuiet) * meter.furthest);
+}
+
+inline void watch_error(ErrorMeter& meter, const Series& e, const Place& at, Mask active) {
+  if (!at.is_cut()) return meter.watch(e, at.middle, at.half, active);
+  Series cut;
+  set_cut_off(cut, e, at.end);
+  const double half = 0.5 * at.half * (at.end + 1);
+  meter.watch(cut, at.middle - at.half + half, half, active);
+}
+
+}  // namespace portrait::PORTRAIT_ISA_NAME
