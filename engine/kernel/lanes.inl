@@ -134,5 +134,6 @@ inline Mask operator|(Mask a, Mask b) { return {{either(a.m[0], b.m[0]), either(
 inline Mask but_not(Mask a, Mask b) { return {{except(a.m[0], b.m[0]), except(a.m[1], b.m[1])}}; }
 inline unsigned bits(Mask m) { return bits(m.m[0]) | bits(m.m[1]) << kRegisterLanes; }
 inline bool any(Mask m) { return bits(m) != 0; }
+inline Mask operator!(Mask m) { return but_not(Mask::from((1u << kLanes) - 1), m); }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

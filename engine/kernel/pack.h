@@ -59,11 +59,30 @@ struct PackResult {
   PackColumn dead_times;  ///< simulated
 };
 
-/// Number of settings a pack holds, and the run itself, of one instruction set.
+/// Open loops with one gain crossover and at least one integrator.
+struct MarginPack {
+  int integrators, plant_lags, n;
+  bool highest_at_ends;  ///< beyond any frequency |L| is largest there or at infinity: n = 0 on ipdt and fotd
+
+  PackColumn n0, n1, n2, tau_1, tau_f;  ///< a time constant that the loop lacks is 1
+  PackColumn end_gain;                  ///< |L| at infinity, below 1
+  PackColumn crossover_guess;
+};
+
+struct MarginResult {
+  PackColumn phase;  ///< arg L at the gain crossover, rad; the loop is stable when it is above -pi
+  PackColumn crossover;
+  PackColumn Ms, Ms_omega, Mt, Mt_omega;
+  PackColumn gain_above, gain_below;  ///< |L| where arg L = -pi: the largest below 1, the smallest above; 0 and inf: none
+  PackColumn done;                    ///< 0 where the search was given up
+};
+
+/// What one instruction set offers.
 struct Implementation {
   const char* name;
-  int lanes;
+  int lanes;  ///< settings a pack holds
   void (*run)(const Pack&, PackResult&);
+  void (*find_margins)(const MarginPack&, MarginResult&);
 };
 
 }  // namespace portrait::kernel

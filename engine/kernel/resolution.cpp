@@ -10,7 +10,7 @@ namespace portrait::kernel {
 namespace {
 
 /// Layers this small, as a part of the signal, no longer matter.
-constexpr double kFaded = 1e-9;
+constexpr double kFaded = 1e-10;
 constexpr int kAllIntervals = 1 << 30;
 /// Few different numbers, so that many settings share one.
 constexpr std::array kIntervalCounts = {2, 3, 4, 5, 6, 8, 12, 16, 24, 32, 48, 64};

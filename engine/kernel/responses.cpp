@@ -15,7 +15,7 @@ namespace portrait::kernel {
 namespace {
 
 /// Last coefficients of u and y, as a part of the signal, that count as died out.
-constexpr double kResolved = 1e-8;
+constexpr double kResolved = 1e-9;
 constexpr double kSettlingBand = 0.01;
 
 /// y_w = -(g0 int v + g1 v + g2 v') from the disturbance run's filtered error v.
