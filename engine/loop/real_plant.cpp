@@ -41,8 +41,16 @@ double scale(Measure measure, const RealPlant& plant) {
       return y;
     case Unit::output_time:
       return y * plant.Td;
+    case Unit::output_time2:
+      return y * plant.Td * plant.Td;
+    case Unit::output2_time:
+      return y * y * plant.Td;
+    case Unit::output2_time2:
+      return y * y * plant.Td * plant.Td;
     case Unit::input:
       return u;
+    case Unit::per_time:
+      return 1 / plant.Td;
   }
   return kNaN;
 }

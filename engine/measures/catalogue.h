@@ -14,6 +14,12 @@ namespace portrait {
 enum class Measure {
   IAE_w,
   IAE_d,
+  ISE_w,
+  ISE_d,
+  ITAE_w,
+  ITAE_d,
+  ITSE_w,
+  ITSE_d,
   TV_yw,
   TV0_yw,
   TV1_yw,
@@ -36,15 +42,21 @@ enum class Measure {
   u_max_d,
   Ms,
   Mt,
+  Ms_omega,
+  Mt_omega,
 };
-inline constexpr std::size_t kMeasureCount = 24;
+inline constexpr std::size_t kMeasureCount = 32;
 
 /// What a measure is made of, which fixes its real unit.
 enum class Unit {
-  one,          ///< a pure number
-  output,       ///< unit of y
-  output_time,  ///< unit of y times time
-  input,        ///< unit of u
+  one,            ///< a pure number
+  output,         ///< unit of y
+  output_time,    ///< unit of y times time
+  output_time2,   ///< unit of y times time squared
+  output2_time,   ///< unit of y squared times time
+  output2_time2,  ///< unit of y squared times time squared
+  input,          ///< unit of u
+  per_time,       ///< radians per time
 };
 
 struct MeasureInfo {

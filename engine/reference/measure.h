@@ -1,7 +1,6 @@
 /// All measures of one loop, by the reference simulation: definitions taken literally, nothing sampled.
 ///
-/// Extremes are sign changes of y' and u', integrals of |e| are split at the sign changes of e and taken from
-/// antiderivatives. The error is that of the simulation.
+/// Extremes are sign changes of y' and u'; integrals of the error are taken in error_integrals.h. The error is that of the simulation.
 #pragma once
 
 #include "engine/base/status.h"
@@ -17,9 +16,6 @@ struct Measured {
   MeasureRow measures;  ///< all NaN when unstable
   double horizon = 0;   ///< dead times really simulated; 0 when unstable
 };
-
-/// Within this part of its largest deviation from rest a signal counts as settled, over the whole last dead time.
-inline constexpr double kSettlingBand = 0.01;
 
 /// REQUIRES: the loop is valid.
 Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {});
