@@ -67,6 +67,12 @@ Prefilter prefilter_argument(std::string_view option, std::string_view text) {
   return *prefilter;
 }
 
+Method method_argument(std::string_view option, std::string_view text) {
+  const auto method = method_named(text);
+  if (!method) fail(option, fmt::format("unknown method \"{}\"{}", text, suggestion(text, words(kMethodNames))));
+  return *method;
+}
+
 RealPlant real_plant_argument(std::string_view option, std::string_view text, Plant family) {
   RealPlant plant{.family = family, .K = 1, .Td = 0, .T1 = 0};
   for (const auto& [name, value] : assignments(option, text)) {

@@ -8,6 +8,7 @@
 
 #include "engine/loop/horizon.h"
 #include "engine/loop/real_plant.h"
+#include "engine/sweep/method.h"
 
 namespace portrait::tools {
 
@@ -19,6 +20,7 @@ Horizon horizon_argument(std::string_view option, std::string_view text);
 
 Plant plant_family_argument(std::string_view option, std::string_view text);
 Prefilter prefilter_argument(std::string_view option, std::string_view text);
+Method method_argument(std::string_view option, std::string_view text);
 
 /// "K=2.5,Td=0.4[,T1=3]" for a plant of this family; K is 1 when it is not given.
 RealPlant real_plant_argument(std::string_view option, std::string_view text, Plant family);

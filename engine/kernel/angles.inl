@@ -1,7 +1,7 @@
 /// Sine, cosine and arc tangent in lanes.
 ///
 /// Taylor's series after a reduction of the argument that makes them short: no coefficient but 1/n! and 1/(2n + 1).
-/// accuracy  2e-16 of the value or of 1, |x| below 1e5 for sine and cosine: tests/engine/kernel/margins_test.cpp
+/// domain    |x| below 1e5 for sine and cosine, t >= 0 for the arc tangent
 #pragma once
 
 #include "engine/kernel/lanes.inl"

@@ -2,13 +2,15 @@
 #pragma once
 
 #include "engine/kernel/plant.inl"
+#include "engine/kernel/prefilter.inl"
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
 struct Panel {
   double start, half;  ///< of the panel in its dead time; half its length
   IntegralWeights weights;
-  Lag filter, plant, prefilter;
+  Lag filter, plant;
+  Prefilter prefilter;
 };
 
 /// Lengths of the panels of a mesh, from left to right. `lengths` holds panels_of(mesh).

@@ -94,7 +94,9 @@ struct ShapeMeter {
     }
 
     void may_cross(const Series& slope, const Series& curvature, const Part& part, const Ends& ends, Mask mask) {
-      meter.go_on(ends.left, f, part.start(), mask & (abs(ends.left) > Lanes(0.0)));
+      // Where f' is 0 at the left end its direction is that of the right.
+      const Lanes first = select(abs(ends.left) > Lanes(0.0), ends.left, ends.right);
+      meter.go_on(first, f, part.start(), mask & (abs(first) > Lanes(0.0)));
       const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
       if (any(crosses)) meter.turn(extreme(slope, curvature, part, ends, crosses), crosses);
       const Lanes direction = select(ends.right > Lanes(0.0), Lanes(1.0), Lanes(-1.0));

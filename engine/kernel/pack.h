@@ -16,6 +16,7 @@ enum class PlantKind { dipdt, ipdt, fotd };
 enum class SetpointRun {
   from_disturbance,  ///< from the disturbance run, by g0, g1, g2
   lag,               ///< a run of its own behind the prefilter (1 + b_r s)/(1 + a1 s)
+  second_order,      ///< a run of its own behind (1 + b_r s + c_r s^2)/(1 + a1 s + a2 s^2)
 };
 
 /// How a dead time is cut into panels, for all lanes alike: the first panel 2^-graded of it, each further one as long as all
@@ -40,7 +41,7 @@ struct Pack {
 
   PackColumn kappa, integral_gain, delta, tau_1, tau_f;  ///< integral_gain = kappa/tau_i, 0 without integral action
   PackColumn g0, g1, g2;                                 ///< y_w = -(g0 int v + g1 v + g2 v')
-  PackColumn a1, b_r;
+  PackColumn a1, a2, b_r, c_r;
   PackColumn y_rest_w, u_rest_w, y_rest_d, u_rest_d;
 };
 

@@ -17,6 +17,7 @@
 #include "engine/kernel/filter.inl"
 #include "engine/kernel/mesh.inl"
 #include "engine/kernel/plant.inl"
+#include "engine/kernel/setpoint.inl"
 #include "engine/kernel/step_meters.inl"
 
 namespace portrait::PORTRAIT_ISA_NAME {
@@ -25,60 +26,6 @@ using kernel::Pack;
 using kernel::PackResult;
 using kernel::PlantKind;
 using kernel::SetpointRun;
-
-/// y_w and u_w by the identity. y_w's derivatives are sums of three neighbours: level 0 is y_w, level 1 y_w', ...
-class DerivedSetpoint {
- public:
-  void begin(const Pack& pack) {
-    g0_ = Lanes::from(pack.g0), g1_ = Lanes::from(pack.g1), g2_ = Lanes::from(pack.g2);
-    has_g1_ = any(abs(g1_) > Lanes(0.0));
-    has_g2_ = any(abs(g2_) > Lanes(0.0));
-  }
-
-  /// Derivatives of v beyond v'' that u_w' asks for.
-  int extra(PlantKind plant) const {
-    const int terms = has_g2_ ? 2 : has_g1_ ? 1 : 0;
-    return plant == PlantKind::dipdt ? terms : terms == 2 ? 1 : 0;
-  }
-
-  void set(Series& to, int level, const Series& sum, const Derivatives& v) const {
-    const Series& first = level == 0 ? sum : *v.at[level - 1];
-    if (!has_g1_ && !has_g2_) return set_scaled(to, g0_, first);
-    const Series& second = *v.at[level];
-    for (int k = 0; k < kTerms; ++k) to[k] = mul_add(g1_, second[k], g0_ * first[k]);
-    if (has_g2_) add_scaled(to, g2_, *v.at[level + 1]);
-  }
-
- private:
-  Lanes g0_, g1_, g2_;
-  bool has_g1_ = false, has_g2_ = false;
-};
-
-/// The setpoint behind its prefilter: r = x + b_r x' with a1 x' + x = 1.
-class FilteredSetpoint {
- public:
-  void begin(const Pack& pack) {
-    a1_ = Lanes::from(pack.a1), b_r_ = Lanes::from(pack.b_r);
-    state_ = Lanes(0.0);
-  }
-
-  /// h = y - r and h' = y' - r' on the next panel.
-  void subtract(const Lag& lag, double half_length, const Output& z, Series& h, Series& h1) {
-    Series one, slope;
-    set_zero(one);
-    one[0] = Lanes(1.0);
-    lag.set_slope(slope, one, state_);
-    const Lanes lead = a1_ - b_r_, lead1 = b_r_ / a1_ - Lanes(1.0);  // x'' = -x'/a1
-    for (int k = 0; k < kTerms; ++k) {
-      h[k] = mul_add(lead, slope[k], z.y[k] - one[k]);
-      h1[k] = mul_add(lead1, slope[k], z.y1[k]);
-    }
-    state_ = mul_add(Lanes(2 * half_length), slope[0], state_);
-  }
-
- private:
-  Lanes a1_, b_r_, state_;
-};
 
 /// One closed loop per lane: driven by d = 1, which through the identity gives both responses, or by the setpoint alone.
 template <PlantKind plant, bool filtered, bool disturbed>
@@ -132,7 +79,7 @@ class Run {
       panel.weights.prepare(panel.half);
       if (filtered) panel.filter.prepare(tau_f_, panel.half);
       if (plant == PlantKind::fotd) panel.plant.prepare(tau_1_, panel.half);
-      if (!disturbed) panel.prefilter.prepare(Lanes::from(pack_.a1), panel.half);
+      if (!disturbed) setpoint_.prepare(panel.prefilter, panel.half);
     }
   }
 
@@ -172,7 +119,11 @@ class Run {
 
   Derivatives negative_error(const Panel& panel, const Output& z) {
     if constexpr (disturbed) return {{&z.y, &z.y1, &z.y2, &z.y3, nullptr}};
-    setpoint_.subtract(panel.prefilter, panel.half, z, error_, error1_);
+    setpoint_.next(panel.prefilter, panel.half);
+    for (int k = 0; k < kTerms; ++k) {
+      error_[k] = z.y[k] - setpoint_.r[k];
+      error1_[k] = z.y1[k] - setpoint_.r1[k];
+    }
     return {{&error_, &error1_, nullptr, nullptr, nullptr}};
   }
 

@@ -40,7 +40,7 @@ struct StepMeters {
 };
 
 /// What stays within this part of its largest deviation from rest, over a dead time, is at rest for good.
-inline constexpr double kQuiet = 1e-13;
+inline constexpr double kQuiet = 1e-11;
 
 inline void watch_cut(ShapeMeter& meter, const Series& f, const Series& slope, const Place& at, Mask active) {
   Series g, g1;

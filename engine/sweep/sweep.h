@@ -11,18 +11,19 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "engine/loop/horizon.h"
 #include "engine/loop/loop.h"
 #include "engine/measures/columns.h"
+#include "engine/sweep/method.h"
 
 namespace portrait {
 
 struct SweepJob {
   LoopFamily family;
   Horizon horizon;
+  Method method = Method::kernel;
   std::vector<Measure> measures;  ///< kept ones, in catalogue order
   std::uint64_t tile_count = 0;
   /// The settings of a tile. Called by one thread at a time, in order of tiles.
@@ -37,6 +38,7 @@ struct SweepJob {
 
 struct SweepOutcome {
   std::uint64_t settings_measured = 0;
+  std::uint64_t settings_by_reference = 0;  ///< that the kernel's finest panels did not resolve
   std::uint64_t tiles_stored = 0;
   bool complete = false;  ///< every tile was stored
   int threads = 0;
@@ -48,12 +50,5 @@ SweepOutcome sweep(const SweepJob& job);
 
 /// As many threads as OpenMP offers on this machine; OMP_NUM_THREADS sets it.
 int usual_threads();
-
-/// How the sweep computes its measures, for the record: "reference".
-std::string_view sweep_method();
-
-/// Measures settings one after the other into `columns`, from entry `first` on.
-void measure_settings(const LoopFamily& family, Horizon horizon, std::span<const Setting> settings,
-                      std::size_t first, MeasureColumns& columns);
 
 }  // namespace portrait

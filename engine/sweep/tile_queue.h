@@ -57,7 +57,7 @@ class TileQueue {
  private:
   void store_in_order(std::unique_lock<std::mutex>& lock);
 
-  static constexpr std::size_t kSliceSettings = 32;
+  static constexpr std::size_t kSliceSettings = 128;
 
   const std::vector<Measure> measures_;
   const std::uint64_t tile_count_;
