@@ -7,7 +7,7 @@
 namespace portrait::kernel {
 
 inline constexpr int kMaxLanes = 16;
-inline constexpr int kMaxPanels = 40;
+inline constexpr int kMaxPanels = 64;
 inline constexpr int kMaxFilters = 16;
 
 enum class PlantKind { dipdt, ipdt, fotd };
