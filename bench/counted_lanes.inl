@@ -1,9 +1,9 @@
-/// The names of engine/kernel/lanes.inl over plain numbers that count what is done to them: the kernel, compiled over
-/// these, says how many floating-point operations a setting takes. As many lanes as the widest instruction set has,
-/// since what happens in any lane of a pack is done to all of them.
+/// The names of engine/kernel/lanes.inl over plain numbers that count what is done to them: the kernel, compiled
+/// over these, says how many floating-point operations a setting takes. As many lanes as the widest instruction set
+/// has, since what happens in any lane of a pack is done to all of them.
 ///
-/// counts    a + b, a - b, a b, a/b, sqrt, min, max and a < b as one operation, mul_add as two; changes of sign, |a|,
-///           select and masks as none
+/// counts    a + b, a - b, a b, a/b, sqrt, min, max and a < b as one operation, mul_add as two; changes of sign,
+///           |a|, select and masks as none
 #pragma once
 
 namespace portrait::PORTRAIT_ISA_NAME {

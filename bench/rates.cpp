@@ -8,7 +8,7 @@
 namespace portrait::bench {
 namespace {
 
-/// The scalar loop takes a second for 700 settings: it gets these few, from all over the case.
+/// The scalar loop is slow: it gets these few, from all over the case.
 constexpr std::size_t kScalarSettings = 16;
 
 std::vector<Setting> every_nth(const std::vector<Setting>& settings, std::size_t count) {

@@ -1,7 +1,7 @@
 /// One double, or as many as a register holds, under the same operators: the step loop is written once for both.
 ///
-/// One register of each signal, with both responses in flight, was the fastest on every instruction set: with two and
-/// four the states no longer fit the register file.
+/// One register of each signal, with both responses in flight, was the fastest on every instruction set: with two
+/// and four the states no longer fit the register file.
 #pragma once
 
 namespace portrait::bench::PORTRAIT_ISA_NAME {

@@ -4,10 +4,10 @@
 ///     z'' = u + d,    z' = u + d,   or   tau_1 z' + z = u + d                     y(t) = z(t - 1)
 ///     tau_i tau_d r'' + tau_i r' + r = w
 ///
-/// Runge-Kutta needs y between two steps. The cubic through four neighbours costs as much as the mean of two, within
-/// the noise, and makes TV ten to a hundred times as accurate. Kinks of y lie on multiples of the dead time: there a
-/// parabola through three neighbours of one side takes its place. Differences are written as a x - b y, which lets the
-/// four stages follow each other at the latency of one fused operation.
+/// Runge-Kutta needs y between two steps. The cubic through four neighbours was no slower than the mean of two, and TV
+/// is far more accurate with it. Kinks of y lie on multiples of the dead time: there a parabola through three
+/// neighbours of one side takes its place. Differences are written as a x - b y, which lets the four stages follow
+/// each other at the latency of one fused operation.
 #pragma once
 
 #include "bench/isa/number.inl"

@@ -11,8 +11,13 @@ namespace {
 std::vector<BothSteps> run(const Baseline& baseline, bool batched, const Case& of, std::size_t count) {
   const std::vector<StepSetting> settings = for_step_loop(std::span(of.settings).first(count));
   const StepTask task{static_cast<StepPlant>(of.grid.family.plant), of.settings[0].delta > 0, 50, 51};
-  std::vector<BothSteps> results(count);
+  constexpr std::size_t kBeyond = 16;
+  const StepMeasures untouched = {-1, -1, -1};
+  std::vector<BothSteps> results(count + kBeyond, {untouched, untouched});
   (batched ? baseline.batched : baseline.scalar)(task, settings.data(), static_cast<int>(count), results.data());
+  for (std::size_t i = count; i < results.size(); ++i)
+    EXPECT_EQ(results[i].d.tv_u, -1) << "written beyond the last";
+  results.resize(count);
   return results;
 }
 
