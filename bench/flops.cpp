@@ -4,29 +4,30 @@
 
 #include "engine/kernel/responses.h"
 
-// The kernel with bench/counted_lanes.inl in place of engine/kernel/lanes.inl: that one has been included by the
-// time the kernel asks for it, under a name that nobody uses.
-#define PORTRAIT_ISA_NAME not_counted
-#include "engine/kernel/lanes.inl"
-#undef PORTRAIT_ISA_NAME
-#define PORTRAIT_ISA_NAME counted
-#include "bench/counted_lanes.inl"
-#include "engine/kernel/run.inl"
+namespace portrait {
 
-namespace portrait::bench {
+namespace counted {
+extern const kernel::Implementation kImplementation;
+long operations_so_far();
+}  // namespace counted
+
+namespace bench {
 
 double flops_a_setting(const Case& of) {
-  constexpr kernel::Implementation kCounted = {"counted", counted::kLanes, counted::run};
-  constexpr std::size_t kPack = counted::kLanes, kPacks = 8;
-  std::vector<kernel::LaneMeasured> measured(kPack);
-  const std::size_t packs = std::min(kPacks, of.settings.size() / kPack);
-  const long before = counted::operations;
+  constexpr std::size_t kPacks = 8;
+  const kernel::Implementation& counting = counted::kImplementation;
+  const auto lanes = static_cast<std::size_t>(counting.lanes);
+  std::vector<kernel::LaneMeasured> measured(lanes);
+  const std::size_t packs = std::min(kPacks, of.settings.size() / lanes);
+  const long before = counted::operations_so_far();
   for (std::size_t k = 0; k < packs; ++k) {
     const std::size_t first = k * (of.settings.size() / packs);
-    kernel::measure_responses(kCounted, of.grid.family, std::span(of.settings).subspan(first, kPack),
+    kernel::measure_responses(counting, of.grid.family, std::span(of.settings).subspan(first, lanes),
                               of.grid.horizon, measured);
   }
-  return static_cast<double>(counted::operations - before) / static_cast<double>(packs);
+  // What is done to a pack is done to each of its settings.
+  return static_cast<double>(counted::operations_so_far() - before) / static_cast<double>(packs);
 }
 
-}  // namespace portrait::bench
+}  // namespace bench
+}  // namespace portrait

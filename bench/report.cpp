@@ -65,7 +65,7 @@ std::string rate_table(const Report& report, const Results& results) {
          rows;
 }
 
-std::string sweep_table(const Results& results) {
+std::string sweep_table(const Report& report, const Results& results) {
   std::string rows;
   for (const Sweep& sweep : kSweeps)
     if (results.has(sweep.name))
@@ -73,7 +73,8 @@ std::string sweep_table(const Results& results) {
                           "", 100 * results.spread(sweep.name),
                           three_digits(results.ratio(sweep.name, sweep.compared_to).value_or(NAN)));
   if (rows.empty()) return {};
-  return fmt::format("\n{:<36}{:>12}{:>14}{:>10}{:>12}\n", "sweep, by the clock", "settings/s", "", "spread",
+  return fmt::format("\n{:<36}{:>12}{:>14}{:>10}{:>12}\n",
+                     fmt::format("sweep ({}), by the clock", report.sweep_method), "settings/s", "", "spread",
                      "ratio") +
          rows;
 }
@@ -123,7 +124,7 @@ Json rate_json(const ProvedCase& of, const Code& code, const Results& results) {
 std::string table(const Report& report, const Results& results) {
   return fmt::format("{}, instruction set {}, {} threads; medians of {} interleaved repetitions\n", report.program,
                      report.instruction_set, report.threads, report.repetitions) +
-         rate_table(report, results) + share_table(report, results) + sweep_table(results) +
+         rate_table(report, results) + share_table(report, results) + sweep_table(report, results) +
          peak_table(report, results);
 }
 
@@ -149,6 +150,7 @@ Json json(const Report& report, const Results& results) {
           {"instruction_set", report.instruction_set},
           {"threads", report.threads},
           {"repetitions", report.repetitions},
+          {"sweep_method", report.sweep_method},
           {"rates", rates},
           {"kernel", kernel},
           {"sweeps", sweeps},

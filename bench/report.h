@@ -19,6 +19,7 @@ struct ProvedCase {
 
 struct Report {
   std::string program, instruction_set;
+  std::string sweep_method;  ///< how the sweeps compute their measures
   int repetitions, threads;
   std::vector<std::string> peaks;  ///< instruction sets whose peak was measured
   std::vector<ProvedCase> cases;
