@@ -23,7 +23,7 @@ struct Effort {
 
 void register_peaks(const Effort& effort);
 
-/// REQUIRES: the case outlives the run, as `effort` does below.
+/// REQUIRES: the case outlives the run.
 void register_rates(const Case& of, const Effort& effort);
 
 void register_sweeps(const Effort& effort);
