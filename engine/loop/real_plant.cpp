@@ -36,7 +36,10 @@ double scale(Measure measure, const RealPlant& plant) {
   const double u = m.step == 'd' ? 1 : 1 / gain;
   switch (m.unit) {
     case Unit::one:
+    case Unit::degree:
       return 1;
+    case Unit::time:
+      return plant.Td;
     case Unit::output:
       return y;
     case Unit::output_time:

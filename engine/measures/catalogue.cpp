@@ -52,6 +52,13 @@ constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
      '-'},
     {"Mt_omega", "frequency of the peak of the complementary sensitivity",
      "omega at which |L/(1 + L)| is largest, in radians; 0 or inf for its limit there", Unit::per_time, '-'},
+    {"GM", "gain margin", "smallest factor above 1 on L at which the loop loses stability", Unit::one, '-'},
+    {"GM_low", "lower gain margin", "largest factor below 1 on L at which the loop loses stability; 0: none does",
+     Unit::one, '-'},
+    {"PM", "phase margin", "smallest |arg(-L(j omega))| where |L| = 1; inf where |L| is never 1", Unit::degree,
+     '-'},
+    {"DM", "delay margin", "smallest further dead time at which the loop loses stability; inf: none does",
+     Unit::time, '-'},
 }};
 
 }  // namespace

@@ -1,7 +1,8 @@
 /// The measures: one number per setting. Names are public; order here is the order of columns everywhere.
 ///
 /// Suffix _w: unit setpoint step at t = 0. Suffix _d: unit input-disturbance step at t = 0, before the dead
-/// time. unit      normalised (dimensionless); `scale` in engine/loop/real_plant.h leads to real units
+/// time.
+/// unit      normalised (dimensionless); `scale` in engine/loop/real_plant.h leads to real units
 #pragma once
 
 #include <array>
@@ -44,8 +45,12 @@ enum class Measure {
   Mt,
   Ms_omega,
   Mt_omega,
+  GM,
+  GM_low,
+  PM,
+  DM,
 };
-inline constexpr std::size_t kMeasureCount = 32;
+inline constexpr std::size_t kMeasureCount = 36;
 
 /// What a measure is made of, which fixes its real unit.
 enum class Unit {
@@ -56,7 +61,9 @@ enum class Unit {
   output2_time,   ///< unit of y squared times time
   output2_time2,  ///< unit of y squared times time squared
   input,          ///< unit of u
+  time,           ///< time
   per_time,       ///< radians per time
+  degree,         ///< of an angle
 };
 
 struct MeasureInfo {

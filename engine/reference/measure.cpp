@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/loop/margins.h"
 #include "engine/loop/sensitivity.h"
 #include "engine/loop/stability.h"
 #include "engine/measures/step_measures.h"
@@ -76,12 +77,17 @@ void measure_step(const StepResponse& r, Step step, MeasureRow& row) {
   measure_signal(turning_points(r.pieces, &Piece::u, r.u_noise), r.at_rest.u, names.of_u, names.u_max, row);
 }
 
-void measure_peaks(const OpenLoop& open, MeasureRow& row) {
+void measure_loop(const OpenLoop& open, MeasureRow& row) {
   const Peak s = sensitivity_peak(open), t = complementary_sensitivity_peak(open);
   row[Measure::Ms] = s.value;
   row[Measure::Mt] = t.value;
   row[Measure::Ms_omega] = s.omega;
   row[Measure::Mt_omega] = t.omega;
+  const Margins m = margins(open);
+  row[Measure::GM] = m.gain;
+  row[Measure::GM_low] = m.gain_low;
+  row[Measure::PM] = m.phase_deg;
+  row[Measure::DM] = m.delay;
 }
 
 bool is_settled(const Response& response) {
@@ -100,7 +106,7 @@ Measured measure(const Loop& loop, const Response& response) {
   measured.status = is_settled(response) ? Status::settled : Status::not_settled;
   measure_step(response.steps[kSetpoint], kSetpoint, measured.measures);
   measure_step(response.steps[kDisturbance], kDisturbance, measured.measures);
-  measure_peaks(open_loop(loop), measured.measures);
+  measure_loop(open_loop(loop), measured.measures);
   return measured;
 }
 

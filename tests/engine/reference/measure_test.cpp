@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/loop/margins.h"
 #include "engine/loop/parameters.h"
 #include "engine/loop/sensitivity.h"
 #include "engine/measures/step_measures.h"
@@ -186,10 +187,16 @@ TEST(MeasureRowOf, EveryStableLoopIsFiniteButForSuchErrors) {
       const bool of_error = to_string(m).starts_with("I");
       const bool exists = !of_error || integral || (info(m).step == 'w' && integrating);
       EXPECT_EQ(std::isnan(row[m]), !exists) << to_string(m);
-      EXPECT_TRUE(!std::isinf(row[m]) || m == Ms_omega || m == Mt_omega) << to_string(m);
+      const bool may_be_inf = m == Ms_omega || m == Mt_omega || m == PM || m == DM;
+      EXPECT_TRUE(!std::isinf(row[m]) || may_be_inf) << to_string(m);
     }
     EXPECT_EQ(row[Ms], sensitivity_peak(open_loop(loop)).value);
     EXPECT_EQ(row[Mt], complementary_sensitivity_peak(open_loop(loop)).value);
+    EXPECT_EQ(row[Ms_omega], sensitivity_peak(open_loop(loop)).omega);
+    EXPECT_EQ(row[Mt_omega], complementary_sensitivity_peak(open_loop(loop)).omega);
+    const Margins m = margins(open_loop(loop));
+    EXPECT_EQ((std::array{row[GM], row[GM_low], row[PM], row[DM]}),
+              (std::array{m.gain, m.gain_low, m.phase_deg, m.delay}));
   }
 }
 
