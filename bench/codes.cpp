@@ -1,12 +1,12 @@
 #include "bench/codes.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string_view>
 
 #include "engine/base/check.h"
 #include "engine/isa/dispatch.h"
-#include "engine/loop/sensitivity.h"
-#include "engine/loop/stability.h"
+#include "engine/sweep/method.h"
 
 namespace portrait::bench {
 
@@ -22,6 +22,9 @@ extern const Baseline kBaseline;
 
 namespace {
 
+/// What a worker of a sweep measures at a time.
+constexpr std::size_t kSlice = 128;
+
 const Baseline& baseline_named(std::string_view name) {
   for (const Baseline* baseline : {&base::kBaseline, &avx2::kBaseline, &avx512::kBaseline})
     if (name == baseline->name) return *baseline;
@@ -31,22 +34,22 @@ const Baseline& baseline_named(std::string_view name) {
 }  // namespace
 
 void run_engine(const Case& of, std::span<const Setting> settings, MeasureColumns& columns) {
-  std::vector<kernel::LaneMeasured> measured(settings.size());
-  run_responses(of, settings, measured);
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    const OpenLoop loop = open_loop({of.grid.family, settings[i]});
-    PORTRAIT_CHECK(is_stable(loop));
-    measured[i].measures[Measure::Ms] = sensitivity_peak(loop).value;
-    columns.set(i, measured[i].status, measured[i].measures);
+  std::vector<SettingMeasured> measured(kSlice);
+  for (std::size_t first = 0; first < settings.size(); first += kSlice) {
+    const std::size_t count = std::min(kSlice, settings.size() - first);
+    measure_settings(Method::kernel, of.grid.family, of.grid.horizon, settings.subspan(first, count),
+                     std::span(measured).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (measured[i].method != Method::kernel) throw std::runtime_error(of.name + ": left to the reference method");
+      columns.set(first + i, measured[i].status, measured[i].measures);
+    }
   }
 }
 
-void run_responses(const Case& of, std::span<const Setting> settings, std::span<kernel::LaneMeasured> measured) {
-  const kernel::Implementation& implementation = chosen_implementation();
-  const auto lanes = static_cast<std::size_t>(implementation.lanes);
-  for (std::size_t first = 0; first < settings.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, settings.size() - first);
-    kernel::measure_responses(implementation, of.grid.family, settings.subspan(first, count), of.grid.horizon,
+void run_responses(const Case& of, std::span<const Setting> settings, std::span<kernel::Measured> measured) {
+  for (std::size_t first = 0; first < settings.size(); first += kSlice) {
+    const std::size_t count = std::min(kSlice, settings.size() - first);
+    kernel::measure_responses(chosen_implementation(), of.grid.family, settings.subspan(first, count), of.grid.horizon,
                               measured.subspan(first, count));
   }
 }

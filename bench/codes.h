@@ -15,7 +15,7 @@ namespace portrait::bench {
 void run_engine(const Case& of, std::span<const Setting> settings, MeasureColumns& columns);
 
 /// The part of it that is the kernel: both responses and what is measured of them.
-void run_responses(const Case& of, std::span<const Setting> settings, std::span<kernel::LaneMeasured> measured);
+void run_responses(const Case& of, std::span<const Setting> settings, std::span<kernel::Measured> measured);
 
 enum class StepCode {
   scalar,   ///< one setting after the other, 1,000 steps a dead time

@@ -5,12 +5,13 @@
 #undef PORTRAIT_ISA_NAME
 #define PORTRAIT_ISA_NAME counted
 #include "bench/counted_lanes.inl"
+#include "engine/kernel/margins.inl"
 #include "engine/kernel/run.inl"
 
 namespace portrait::counted {
 
 extern const kernel::Implementation kImplementation;
-const kernel::Implementation kImplementation = {"counted", kLanes, run};
+const kernel::Implementation kImplementation = {"counted", kLanes, run, find_margins};
 
 long operations_so_far() { return operations; }
 

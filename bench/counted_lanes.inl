@@ -93,4 +93,6 @@ inline Mask but_not(Mask a, Mask b) { return {a.m & ~b.m}; }
 inline unsigned bits(Mask m) { return m.m; }
 inline bool any(Mask m) { return m.m != 0; }
 
+inline Mask operator!(Mask m) { return but_not(Mask::from((1u << kLanes) - 1), m); }
+
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -43,7 +43,7 @@ void register_engine(const Case& of, const Effort& effort) {
 void register_responses(const Case& of, const Effort& effort) {
   repeat(benchmark::RegisterBenchmark((of.name + "/responses").c_str(),
                                       [&of](benchmark::State& state) {
-                                        std::vector<kernel::LaneMeasured> measured(of.settings.size());
+                                        std::vector<kernel::Measured> measured(of.settings.size());
                                         for (auto _ : state) run_responses(of, of.settings, measured);
                                         state.SetItemsProcessed(items(state, of.settings.size()));
                                       }),

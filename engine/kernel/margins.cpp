@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "engine/loop/margins.h"
 #include "engine/loop/sensitivity.h"
 #include "engine/loop/stability.h"
 
@@ -146,7 +147,9 @@ class Search {
     m.stable = is_stable(loop);
     if (!m.stable) return m;
     const Peak S = sensitivity_peak(loop), T = complementary_sensitivity_peak(loop);
+    const Margins exact = margins(loop);
     m.Ms = S.value, m.Ms_omega = S.omega, m.Mt = T.value, m.Mt_omega = T.omega;
+    m.GM = exact.gain, m.GM_low = exact.gain_low, m.PM = exact.phase_deg, m.DM = exact.delay;
     return m;
   }
 

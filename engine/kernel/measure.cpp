@@ -11,6 +11,8 @@ namespace {
 void set_margins(const LoopMargins& m, MeasureRow& row) {
   row[Measure::Ms] = m.Ms, row[Measure::Ms_omega] = m.Ms_omega;
   row[Measure::Mt] = m.Mt, row[Measure::Mt_omega] = m.Mt_omega;
+  row[Measure::GM] = m.GM, row[Measure::GM_low] = m.GM_low;
+  row[Measure::PM] = m.PM, row[Measure::DM] = m.DM;
 }
 
 }  // namespace
