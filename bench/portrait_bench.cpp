@@ -47,7 +47,7 @@ void interleave_repetitions() {
 Report prove_all(const std::vector<Case>& all, const Effort& effort) {
   Report report{.program = program_version(),
                 .instruction_set = chosen_baseline().name,
-                .sweep_method = std::string(sweep_method()),
+                .sweep_method = method_text(Method::kernel),
                 .repetitions = effort.repetitions,
                 .threads = usual_threads(),
                 .peaks = {},

@@ -34,7 +34,7 @@ void sweep_to_nowhere(const Grid& grid, int threads) {
 
 /// The file as `portrait sweep` writes it: digests, checks and its name included.
 void sweep_to_file(const Grid& grid, int threads, const std::filesystem::path& path) {
-  PortraitWriter writer(path, grid, {"portrait_bench", std::string(sweep_method())}, Existing::replace);
+  PortraitWriter writer(path, grid, {"portrait_bench", method_text(Method::kernel)}, Existing::replace);
   run_sweep(grid, threads, [&](std::uint64_t tile, const MeasureColumns& columns) { writer.write(tile, columns); });
   writer.publish({0, threads});
 }
