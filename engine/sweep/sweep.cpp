@@ -9,7 +9,6 @@
 
 #include "engine/loop/parameters.h"
 #include "engine/reference/measure.h"
-#include "engine/sweep/tile_queue.h"
 
 namespace portrait {
 namespace {
@@ -57,6 +56,7 @@ class Worker {
       }
     } catch (...) {
       failure_.keep(std::current_exception());
+      queue_.close();
     }
   }
 
@@ -95,7 +95,7 @@ void measure_settings(const LoopFamily& family, Horizon horizon, std::span<const
 SweepOutcome sweep(const SweepJob& job) {
   const auto begin = std::chrono::steady_clock::now();
   const int threads = job.threads > 0 ? job.threads : usual_threads();
-  TileQueue queue(job.measures, job.tile_count, job.settings_of, job.store);
+  TileQueue queue(job.measures, job.tile_count, job.settings_of, job.prepare);
   FirstFailure failure;
   std::mutex progress;
 #pragma omp parallel num_threads(threads)
