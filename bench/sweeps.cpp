@@ -13,9 +13,9 @@
 namespace portrait::bench {
 namespace {
 
-using Store = std::function<void(std::uint64_t, const MeasureColumns&)>;
+using Prepare = TileQueue::Prepare;
 
-void run_sweep(const Grid& grid, int threads, const Store& store) {
+void run_sweep(const Grid& grid, int threads, const Prepare& prepare) {
   const Tiling tiling(grid);
   SweepJob job;
   job.family = grid.family;
@@ -24,18 +24,20 @@ void run_sweep(const Grid& grid, int threads, const Store& store) {
   job.tile_count = tiling.tile_count();
   job.threads = threads;
   job.settings_of = [&](std::uint64_t tile) { return settings_in(grid, tiling.box(tile)); };
-  job.store = store;
+  job.prepare = prepare;
   PORTRAIT_CHECK(sweep(job).complete);
 }
 
 void sweep_to_nowhere(const Grid& grid, int threads) {
-  run_sweep(grid, threads, [](std::uint64_t, const MeasureColumns&) {});
+  run_sweep(grid, threads, [](std::uint64_t, const MeasureColumns&) { return [] {}; });
 }
 
 /// The file as `portrait sweep` writes it: digests, checks and its name included.
 void sweep_to_file(const Grid& grid, int threads, const std::filesystem::path& path) {
   PortraitWriter writer(path, grid, {"portrait_bench", method_text(Method::kernel)}, Existing::replace);
-  run_sweep(grid, threads, [&](std::uint64_t tile, const MeasureColumns& columns) { writer.write(tile, columns); });
+  run_sweep(grid, threads, [&](std::uint64_t tile, const MeasureColumns& columns) {
+    return [&writer, encoded = std::make_shared<EncodedTile>(writer.encode(tile, columns))] { writer.write(*encoded); };
+  });
   writer.publish({0, threads});
 }
 
@@ -57,7 +59,7 @@ class FileForAWhile {
 
 /// A sweep so long that threads and files do not count by their beginnings.
 std::uint64_t settings_for(double seconds) {
-  const Grid trial = sweep_grid(256);
+  const Grid trial = sweep_grid(8192);
   const auto begin = std::chrono::steady_clock::now();
   sweep_to_nowhere(trial, 1);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -165,9 +166,11 @@ int sweep_to_file(const SweepArguments& a, const Invocation& invocation, const G
   interrupt.remove_on_second(writer.temporary_path().string());
   Tally tally;
   Progress progress(setting_count(grid), Progress::usual_style(a.quiet));
-  job.store = [&](std::uint64_t tile, const MeasureColumns& columns) {
-    writer.write(tile, columns);
-    tally.add(columns);
+  job.prepare = [&](std::uint64_t tile, const MeasureColumns& columns) -> StoreStep {
+    return [&, encoded = std::make_shared<EncodedTile>(writer.encode(tile, columns))] {
+      writer.write(*encoded);
+      tally.add(columns);
+    };
   };
   job.progress = [&](std::uint64_t done) { progress.update(done); };
   job.stop = &interrupt.requested();

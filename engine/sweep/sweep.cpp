@@ -5,8 +5,6 @@
 
 #include <omp.h>
 
-#include "engine/sweep/tile_queue.h"
-
 namespace portrait {
 namespace {
 
@@ -47,6 +45,7 @@ class Worker {
       }
     } catch (...) {
       failure_.keep(std::current_exception());
+      queue_.close();
     }
   }
 
@@ -84,7 +83,7 @@ int usual_threads() { return omp_get_max_threads(); }
 SweepOutcome sweep(const SweepJob& job) {
   const auto begin = std::chrono::steady_clock::now();
   const int threads = job.threads > 0 ? job.threads : usual_threads();
-  TileQueue queue(job.measures, job.tile_count, job.settings_of, job.store);
+  TileQueue queue(job.measures, job.tile_count, job.settings_of, job.prepare);
   FirstFailure failure;
   std::mutex progress;
   std::atomic<std::uint64_t> left_over = 0;

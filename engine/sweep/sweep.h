@@ -3,6 +3,7 @@
 /// Knows nothing of grids or files: the caller says how many tiles there are, which settings a tile holds,
 /// and what to do with its measures.
 /// result    the same bits for any number of threads
+/// cost      memory: some tiles (TileQueue), however slow storing is
 /// errors    the first failure in a worker stops the sweep and is rethrown, with the command that reproduces
 ///           the setting
 #pragma once
@@ -17,6 +18,7 @@
 #include "engine/loop/loop.h"
 #include "engine/measures/columns.h"
 #include "engine/sweep/method.h"
+#include "engine/sweep/tile_queue.h"
 
 namespace portrait {
 
@@ -28,8 +30,10 @@ struct SweepJob {
   std::uint64_t tile_count = 0;
   /// The settings of a tile. Called by one thread at a time, in order of tiles.
   std::function<std::vector<Setting>(std::uint64_t tile)> settings_of;
-  /// Takes the measures of a tile. Called by one thread at a time, in order of tiles.
-  std::function<void(std::uint64_t tile, const MeasureColumns&)> store;
+  /// Prepares a measured tile for storing, and gives back the step that stores it. Called by the worker that
+  /// measured the last of the tile, many at once: here belongs what takes long. The steps are called by one thread
+  /// at a time, in order of tiles; the columns live until then.
+  std::function<StoreStep(std::uint64_t tile, const MeasureColumns& columns)> prepare;
   /// Called often, by one thread at a time; may be empty.
   std::function<void(std::uint64_t settings_measured)> progress;
   const std::atomic<bool>* stop = nullptr;  ///< when it becomes true, workers end after the slice in hand

@@ -3,7 +3,7 @@
 
 build_packages=(
   g++ cmake ninja-build pkgconf            # compiler and build
-  libeigen3-dev libhdf5-dev libfmt-dev libxxhash-dev
+  libeigen3-dev libhdf5-dev libfmt-dev libxxhash-dev zlib1g-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
 )
 picture_packages=(gnuplot-nox)

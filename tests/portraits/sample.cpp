@@ -1,7 +1,6 @@
 #include "tests/portraits/sample.h"
 
 #include <limits>
-#include <numeric>
 
 #include "grids/tiling.h"
 #include "portraits/tile_rows.h"
@@ -65,30 +64,40 @@ Status status(std::uint64_t setting) {
   return setting % 3 == 1 ? Status::not_settled : Status::settled;
 }
 
-MeasureColumns columns(const Grid& grid, std::uint64_t tile) {
+double repeating_value(Measure measure, std::uint64_t setting) {
+  const std::uint64_t kind = setting / 1000 % 4, place = setting % 1000;
+  if (kind == 0) return kNaN;
+  if (kind == 1) return static_cast<double>(measure);
+  return kind == 2 && place < 600 ? 0.5 : value(measure, 7 * setting);
+}
+
+namespace {
+
+template <typename ValueOf>
+MeasureColumns columns_with(const Grid& grid, std::uint64_t tile, ValueOf value_of) {
   const SettingRange range = TileRows(grid).range(tile);
   MeasureColumns columns(grid.measures, range.count);
   for (std::uint64_t i = 0; i < range.count; ++i) {
     MeasureRow row;
-    for (const Measure measure : grid.measures) row[measure] = value(measure, range.first + i);
+    for (const Measure measure : grid.measures) row[measure] = value_of(measure, range.first + i);
     columns.set(i, status(range.first + i), row);
   }
   return columns;
 }
 
-void write(const std::filesystem::path& path, const Grid& grid, const std::vector<std::uint64_t>& order,
-           Existing existing) {
-  PortraitWriter writer(path, grid, {.command_line = "portrait sweep sample.toml", .method = "sample"}, existing);
-  for (const std::uint64_t tile : order) writer.write(tile, columns(grid, tile));
-  writer.publish({.wall_seconds = 1.5, .threads = 2});
+}  // namespace
+
+MeasureColumns columns(const Grid& grid, std::uint64_t tile) { return columns_with(grid, tile, value); }
+
+MeasureColumns repeating_columns(const Grid& grid, std::uint64_t tile) {
+  return columns_with(grid, tile, repeating_value);
 }
 
-void write(const std::filesystem::path& path, const Grid& grid) { write(path, grid, tiles_in_order(grid)); }
-
-std::vector<std::uint64_t> tiles_in_order(const Grid& grid) {
-  std::vector<std::uint64_t> order(Tiling(grid).tile_count());
-  std::iota(order.begin(), order.end(), std::uint64_t{0});
-  return order;
+void write(const std::filesystem::path& path, const Grid& grid, Existing existing, Columns columns_of) {
+  PortraitWriter writer(path, grid, {.command_line = "portrait sweep sample.toml", .method = "sample"}, existing);
+  for (std::uint64_t tile = 0; tile < Tiling(grid).tile_count(); ++tile)
+    writer.write(writer.encode(tile, columns_of(grid, tile)));
+  writer.publish({.wall_seconds = 1.5, .threads = 2});
 }
 
 }  // namespace portrait::sample

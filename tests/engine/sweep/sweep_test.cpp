@@ -91,7 +91,7 @@ TEST(Sweep, AFailingSettingNamesTheCommandThatReproducesIt) {
 TEST(Sweep, AFailureOfTheStoreIsRethrownAsItIs) {
   Collected collected(every_measure());
   SweepJob job = job_over(small_grid(), 7, 1, collected);
-  job.store = [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); };
+  store_with(job, [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); });
   EXPECT_THROW(sweep(job), std::out_of_range);
   EXPECT_EQ(message_of([&] { sweep(job); }), "disk full");
 }
@@ -108,10 +108,10 @@ TEST(Sweep, StopsAfterTheSliceInHand) {
   SweepJob job = job_over(small_grid(), 7, 1, collected);
   std::atomic<bool> stop = false;
   job.stop = &stop;
-  job.store = [&](std::uint64_t tile, const MeasureColumns& columns) {
+  store_with(job, [&](std::uint64_t tile, const MeasureColumns& columns) {
     collected.store(tile, columns);
     if (tile == 2) stop = true;
-  };
+  });
   const SweepOutcome outcome = sweep(job);
   EXPECT_FALSE(outcome.complete);
   EXPECT_EQ(outcome.tiles_stored, 3u);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -116,13 +118,42 @@ TEST(TileQueue, OfNoTilesHasNothingToDo) {
   EXPECT_EQ(queue.tiles_stored(), 0u);
 }
 
+TEST(TileQueue, PreparesATileOutsideItsLockAndStoresItWithItsColumns) {
+  std::vector<std::string> steps;
+  std::unique_ptr<TileQueue> queue;
+  queue = std::make_unique<TileQueue>(
+      std::vector<Measure>{Measure::Ms}, 2, [](std::uint64_t) { return std::vector<Setting>(1); },
+      [&](std::uint64_t tile, const MeasureColumns& columns) -> StoreStep {
+        steps.push_back("prepare " + std::to_string(tile) + " of " + std::to_string(queue->settings_measured()));
+        return [&, tile] {
+          steps.push_back("store " + std::to_string(tile) + " " + std::to_string(columns.settings()));
+        };
+      });
+  const std::vector<Slice> slices = all_slices(*queue);
+  measure_and_finish(*queue, slices[1]);
+  measure_and_finish(*queue, slices[0]);
+  EXPECT_EQ(steps, (std::vector<std::string>{"prepare 1 of 1", "prepare 0 of 2", "store 0 1", "store 1 1"}));
+}
+
+TEST(TileQueue, GivesOutNothingMoreWhenClosed) {
+  NumberedTiles tiles({40, 1});
+  TileQueue queue = tiles.queue();
+  const auto slice = queue.next();
+  queue.close();
+  EXPECT_FALSE(queue.next());
+  measure_and_finish(queue, *slice);
+  EXPECT_EQ(queue.settings_measured(), 32u);
+}
+
 TEST(TileQueue, AStoreThatFailedIsNotCalledAgain) {
   int calls = 0;
   TileQueue queue(
       {}, 3, [](std::uint64_t) { return std::vector<Setting>(1); },
-      [&](std::uint64_t, const MeasureColumns&) {
-        ++calls;
-        throw std::out_of_range("disk full");
+      [&](std::uint64_t, const MeasureColumns&) -> StoreStep {
+        return [&] {
+          ++calls;
+          throw std::out_of_range("disk full");
+        };
       });
   const std::vector<Slice> slices = all_slices(queue);
   EXPECT_THROW(queue.finish(slices[0]), std::out_of_range);
