@@ -26,7 +26,7 @@ unit input-disturbance step, and prints its measures.)";
 /// The line as typed; empty means not given.
 struct SimulateArguments {
   std::string plant, kappa, tau_i = "inf", delta, tau_d, tau_1, tau_f, b = "0", c = "0", prefilter,
-                            horizon = "auto", trace;
+                            horizon = "auto", sampling, trace;
   int n = -1;
   bool json = false;
 };
@@ -93,10 +93,11 @@ void trace_if_asked(const SimulateArguments& a, const Loop& loop, const referenc
 }
 
 reference::Measured run(const SimulateArguments& a, const Loop& loop, const Horizon& horizon) {
+  const std::optional<double> sampling = sampling_argument("--sampling", a.sampling);
   if (is_stable(open_loop(loop))) {
     const reference::Response response = reference::simulate(loop, horizon);
     trace_if_asked(a, loop, response);
-    return reference::measure(loop, response);
+    return reference::measure(loop, response, sampling);
   }
   if (!a.trace.empty() && horizon.automatic)
     throw InputError("--trace of an unstable loop needs a fixed --horizon: its responses never settle");
@@ -143,6 +144,7 @@ void add_simulate(CLI::App& app, Invocation& invocation) {
   verb->add_option("--b", a->b, "prefilter numerator, coefficient of s")->capture_default_str();
   verb->add_option("--c", a->c, "prefilter numerator, coefficient of s^2")->capture_default_str();
   verb->add_option("--horizon", a->horizon, "dead times to simulate, or auto")->capture_default_str();
+  verb->add_option("--sampling", a->sampling, "dead times over which measurement noise is held, for noise_gain");
   verb->add_option("--trace", a->trace, "write t, y and u of both steps to this CSV file");
   verb->add_flag("--json", a->json, "one JSON object instead of tables");
   verb->callback([a, &invocation] { invocation.exit_code = simulate(*a); });

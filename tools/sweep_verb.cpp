@@ -49,6 +49,7 @@ SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads) {
   SweepJob job;
   job.family = grid.family;
   job.horizon = grid.horizon;
+  job.sampling = grid.sampling;
   job.measures = grid.measures;
   job.tile_count = tiling.tile_count();
   job.threads = threads;
@@ -69,7 +70,7 @@ double seconds_a_setting(const Grid& grid) {
   while (done < samples && seconds < 0.5) {
     // 97 is a step through the samples in an order that visits all parts of the grid early.
     const Setting setting = setting_at(grid, count / samples * (done * 97 % samples));
-    measure_settings(grid.family, grid.horizon, std::span(&setting, 1), 0, columns);
+    measure_settings(grid.family, grid.horizon, grid.sampling, std::span(&setting, 1), 0, columns);
     ++done;
     seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   }

@@ -1,5 +1,6 @@
 #include "engine/sweep/sweep.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <stdexcept>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "engine/base/check.h"
 #include "engine/loop/parameters.h"
 #include "engine/reference/measure.h"
 #include "engine/sweep/tile_queue.h"
@@ -33,8 +35,13 @@ class FirstFailure {
   std::atomic<bool> happened_ = false;
 };
 
-void measure_one(const Loop& loop, Horizon horizon, std::size_t entry, MeasureColumns& columns) try {
-  const reference::Measured measured = reference::measure(loop, horizon);
+bool keeps(const MeasureColumns& columns, Measure measure) {
+  return std::find(columns.kept.begin(), columns.kept.end(), measure) != columns.kept.end();
+}
+
+void measure_one(const Loop& loop, Horizon horizon, std::optional<double> sampling, std::size_t entry,
+                 MeasureColumns& columns) try {
+  const reference::Measured measured = reference::measure(loop, horizon, {}, sampling);
   columns.set(entry, measured.status, measured.measures);
 } catch (const std::exception& failure) {
   throw std::runtime_error(fmt::format("{}\nreproduce: {}", failure.what(), simulate_command(loop)));
@@ -65,8 +72,8 @@ class Worker {
 
   void measure(const Slice& slice) const {
     const std::span settings(slice.tile->settings);
-    measure_settings(job_.family, job_.horizon, settings.subspan(slice.first, slice.count), slice.first,
-                     slice.tile->columns);
+    measure_settings(job_.family, job_.horizon, job_.sampling, settings.subspan(slice.first, slice.count),
+                     slice.first, slice.tile->columns);
   }
 
   void report() const {
@@ -87,9 +94,12 @@ int usual_threads() { return omp_get_max_threads(); }
 
 std::string_view sweep_method() { return "reference"; }
 
-void measure_settings(const LoopFamily& family, Horizon horizon, std::span<const Setting> settings,
-                      std::size_t first, MeasureColumns& columns) {
-  for (std::size_t i = 0; i < settings.size(); ++i) measure_one({family, settings[i]}, horizon, first + i, columns);
+void measure_settings(const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+                      std::span<const Setting> settings, std::size_t first, MeasureColumns& columns) {
+  PORTRAIT_CHECK(sampling || !keeps(columns, Measure::noise_gain));
+  if (!keeps(columns, Measure::noise_gain)) sampling.reset();
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    measure_one({family, settings[i]}, horizon, sampling, first + i, columns);
 }
 
 SweepOutcome sweep(const SweepJob& job) {

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -23,7 +24,8 @@ namespace portrait {
 struct SweepJob {
   LoopFamily family;
   Horizon horizon;
-  std::vector<Measure> measures;  ///< kept ones, in catalogue order
+  std::optional<double> sampling;  ///< dead times over which noise is held, for noise_gain
+  std::vector<Measure> measures;   ///< kept ones, in catalogue order
   std::uint64_t tile_count = 0;
   /// The settings of a tile. Called by one thread at a time, in order of tiles.
   std::function<std::vector<Setting>(std::uint64_t tile)> settings_of;
@@ -43,7 +45,7 @@ struct SweepOutcome {
   double seconds = 0;
 };
 
-/// REQUIRES: every setting is valid for the family.
+/// REQUIRES: every setting is valid for the family; sampling is given when noise_gain is kept.
 SweepOutcome sweep(const SweepJob& job);
 
 /// As many threads as OpenMP offers on this machine; OMP_NUM_THREADS sets it.
@@ -53,7 +55,7 @@ int usual_threads();
 std::string_view sweep_method();
 
 /// Measures settings one after the other into `columns`, from entry `first` on.
-void measure_settings(const LoopFamily& family, Horizon horizon, std::span<const Setting> settings,
-                      std::size_t first, MeasureColumns& columns);
+void measure_settings(const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+                      std::span<const Setting> settings, std::size_t first, MeasureColumns& columns);
 
 }  // namespace portrait
