@@ -34,7 +34,7 @@ std::vector<Case> few_of_each(const std::vector<Case>& all);
 /// `count` settings (at least 8, rounded to a multiple of 4) of the box of dipdt-pid, for sweeps of any length.
 Grid sweep_grid(std::uint64_t count);
 
-/// Those of both responses, and Ms: what the engine computes while it is timed.
+/// All but noise_gain, which asks for a sampling time: what the engine computes while it is timed.
 std::vector<Measure> timed_measures();
 
 }  // namespace portrait::bench

@@ -1,6 +1,7 @@
 /// Arguments as users write them, turned into what the library takes. All throw InputError with the option's name.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,9 @@ double number_argument(std::string_view option, std::string_view text);
 
 /// A number of dead times above 0, or "auto".
 Horizon horizon_argument(std::string_view option, std::string_view text);
+
+/// A number of dead times above 0, finite; nothing when the text is empty.
+std::optional<double> sampling_argument(std::string_view option, std::string_view text);
 
 Plant plant_family_argument(std::string_view option, std::string_view text);
 Prefilter prefilter_argument(std::string_view option, std::string_view text);

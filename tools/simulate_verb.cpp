@@ -27,7 +27,7 @@ unit input-disturbance step, and prints its measures.)";
 /// The line as typed; empty means not given.
 struct SimulateArguments {
   std::string plant, kappa, tau_i = "inf", delta, tau_d, tau_1, tau_f, b = "0", c = "0", prefilter,
-                            horizon = "auto", method = "kernel", trace;
+                            horizon = "auto", sampling, method = "kernel", trace;
   int n = -1;
   bool json = false;
 };
@@ -98,9 +98,11 @@ void trace_if_asked(const SimulateArguments& a, const Loop& loop, const Horizon&
                             stable ? "" : " (the loop is unstable)"));
 }
 
-SettingMeasured measure(const Loop& loop, const Horizon& horizon, Method method) {
+SettingMeasured measure(const SimulateArguments& a, const Loop& loop, const Horizon& horizon) {
+  const Method method = method_argument("--method", a.method);
+  const std::optional<double> sampling = sampling_argument("--sampling", a.sampling);
   SettingMeasured measured;
-  measure_settings(method, loop.family, horizon, {&loop.setting, 1}, {&measured, 1});
+  measure_settings(method, loop.family, horizon, sampling, {&loop.setting, 1}, {&measured, 1});
   if (measured.method != method)
     print_message("note: too stiff for the kernel's panels, measured by the reference method");
   return measured;
@@ -112,9 +114,8 @@ int simulate(const SimulateArguments& a) {
   if (loop.family.n == 0 && loop.family.prefilter == Prefilter::full && loop.setting.delta > 0)
     print_message(
         "note: with n = 0 the prefilter \"full\" does not cancel the zeros of the setpoint response; \"pi\" does");
-  const Method method = method_argument("--method", a.method);
+  const SettingMeasured measured = measure(a, loop, horizon);
   trace_if_asked(a, loop, horizon);
-  const SettingMeasured measured = measure(loop, horizon, method);
   const auto all = all_measures();
   const std::vector<Measure> measures(all.begin(), all.end());
   if (a.json) {
@@ -148,6 +149,7 @@ void add_simulate(CLI::App& app, Invocation& invocation) {
   verb->add_option("--b", a->b, "prefilter numerator, coefficient of s")->capture_default_str();
   verb->add_option("--c", a->c, "prefilter numerator, coefficient of s^2")->capture_default_str();
   verb->add_option("--horizon", a->horizon, "dead times to simulate, or auto")->capture_default_str();
+  verb->add_option("--sampling", a->sampling, "dead times over which measurement noise is held, for noise_gain");
   verb->add_option("--method", a->method, "kernel, as sweeps use it, or reference, its slow judge")->capture_default_str();
   verb->add_option("--trace", a->trace, "write t, y and u of both steps to this CSV file");
   verb->add_flag("--json", a->json, "one JSON object instead of tables");

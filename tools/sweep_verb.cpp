@@ -50,6 +50,7 @@ SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads) {
   SweepJob job;
   job.family = grid.family;
   job.horizon = grid.horizon;
+  job.sampling = grid.sampling;
   job.measures = grid.measures;
   job.tile_count = tiling.tile_count();
   job.threads = threads;
@@ -73,7 +74,7 @@ double seconds_a_setting(const Grid& grid) {
     for (; settings.size() < kAtATime && done < samples; ++done)
       settings.push_back(setting_at(grid, count / samples * (done * 97 % samples)));
     std::vector<SettingMeasured> measured(settings.size());
-    measure_settings(Method::kernel, grid.family, grid.horizon, settings, measured);
+    measure_settings(Method::kernel, grid.family, grid.horizon, grid.sampling, settings, measured);
     seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   }
   return seconds / static_cast<double>(done);

@@ -52,6 +52,8 @@ double scale(Measure measure, const RealPlant& plant) {
       return y * y * plant.Td * plant.Td;
     case Unit::input:
       return u;
+    case Unit::input_per_output:
+      return 1 / gain;
     case Unit::per_time:
       return 1 / plant.Td;
   }

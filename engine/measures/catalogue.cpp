@@ -59,6 +59,9 @@ constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
      '-'},
     {"DM", "delay margin", "smallest further dead time at which the loop loses stability; inf: none does",
      Unit::time, '-'},
+    {"noise_gain", "amplification of measurement noise",
+     "RMS of u per RMS of white measurement noise held over the sampling time; inf for an ideal derivative",
+     Unit::input_per_output, '-'},
 }};
 
 }  // namespace

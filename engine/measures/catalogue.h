@@ -49,21 +49,23 @@ enum class Measure {
   GM_low,
   PM,
   DM,
+  noise_gain,
 };
-inline constexpr std::size_t kMeasureCount = 36;
+inline constexpr std::size_t kMeasureCount = 37;
 
 /// What a measure is made of, which fixes its real unit.
 enum class Unit {
-  one,            ///< a pure number
-  output,         ///< unit of y
-  output_time,    ///< unit of y times time
-  output_time2,   ///< unit of y times time squared
-  output2_time,   ///< unit of y squared times time
-  output2_time2,  ///< unit of y squared times time squared
-  input,          ///< unit of u
-  time,           ///< time
-  per_time,       ///< radians per time
-  degree,         ///< of an angle
+  one,               ///< a pure number
+  output,            ///< unit of y
+  output_time,       ///< unit of y times time
+  output_time2,      ///< unit of y times time squared
+  output2_time,      ///< unit of y squared times time
+  output2_time2,     ///< unit of y squared times time squared
+  input,             ///< unit of u
+  input_per_output,  ///< unit of u per unit of y
+  time,              ///< time
+  per_time,          ///< radians per time
+  degree,            ///< of an angle
 };
 
 struct MeasureInfo {

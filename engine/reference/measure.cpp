@@ -4,8 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "engine/loop/margins.h"
-#include "engine/loop/sensitivity.h"
+#include "engine/loop/loop_measures.h"
 #include "engine/loop/stability.h"
 #include "engine/measures/step_measures.h"
 #include "engine/measures/variation.h"
@@ -77,19 +76,6 @@ void measure_step(const StepResponse& r, Step step, MeasureRow& row) {
   measure_signal(turning_points(r.pieces, &Piece::u, r.u_noise), r.at_rest.u, names.of_u, names.u_max, row);
 }
 
-void measure_loop(const OpenLoop& open, MeasureRow& row) {
-  const Peak s = sensitivity_peak(open), t = complementary_sensitivity_peak(open);
-  row[Measure::Ms] = s.value;
-  row[Measure::Mt] = t.value;
-  row[Measure::Ms_omega] = s.omega;
-  row[Measure::Mt_omega] = t.omega;
-  const Margins m = margins(open);
-  row[Measure::GM] = m.gain;
-  row[Measure::GM_low] = m.gain_low;
-  row[Measure::PM] = m.phase_deg;
-  row[Measure::DM] = m.delay;
-}
-
 bool is_settled(const Response& response) {
   if (!response.quiet) return false;
   return std::all_of(response.steps.begin(), response.steps.end(), [&](const StepResponse& r) {
@@ -100,19 +86,19 @@ bool is_settled(const Response& response) {
 
 }  // namespace
 
-Measured measure(const Loop& loop, const Response& response) {
+Measured measure(const Loop& loop, const Response& response, std::optional<double> sampling) {
   Measured measured;
   measured.horizon = response.horizon;
   measured.status = is_settled(response) ? Status::settled : Status::not_settled;
   measure_step(response.steps[kSetpoint], kSetpoint, measured.measures);
   measure_step(response.steps[kDisturbance], kDisturbance, measured.measures);
-  measure_loop(open_loop(loop), measured.measures);
+  measure_loop(loop, sampling, measured.measures);
   return measured;
 }
 
-Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy) {
+Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy, std::optional<double> sampling) {
   if (!is_stable(open_loop(loop))) return {.status = Status::unstable, .measures = {}, .horizon = 0};
-  return measure(loop, simulate(loop, horizon, accuracy));
+  return measure(loop, simulate(loop, horizon, accuracy), sampling);
 }
 
 }  // namespace portrait::reference

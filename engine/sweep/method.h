@@ -37,8 +37,8 @@ struct SettingMeasured {
   Method method = Method::reference;  ///< the kernel leaves what its finest panels cannot resolve to the reference
 };
 
-/// REQUIRES: settings valid; as many results.
-void measure_settings(Method method, const LoopFamily& family, Horizon horizon, std::span<const Setting> settings,
-                      std::span<SettingMeasured> results);
+/// `sampling` in dead times, for noise_gain, which is NaN without it. REQUIRES: settings valid; as many results.
+void measure_settings(Method method, const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+                      std::span<const Setting> settings, std::span<SettingMeasured> results);
 
 }  // namespace portrait

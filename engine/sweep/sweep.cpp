@@ -1,9 +1,12 @@
 #include "engine/sweep/sweep.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 
 #include <omp.h>
+
+#include "engine/base/check.h"
 
 namespace portrait {
 namespace {
@@ -27,11 +30,17 @@ class FirstFailure {
   std::atomic<bool> happened_ = false;
 };
 
+bool keeps(const std::vector<Measure>& measures, Measure measure) {
+  return std::find(measures.begin(), measures.end(), measure) != measures.end();
+}
+
 class Worker {
  public:
   Worker(const SweepJob& job, TileQueue& queue, FirstFailure& failure, std::mutex& progress,
          std::atomic<std::uint64_t>& left_over)
-      : job_(job), queue_(queue), failure_(failure), progress_(progress), left_over_(left_over) {}
+      : job_(job), queue_(queue), failure_(failure), progress_(progress), left_over_(left_over) {
+    if (keeps(job.measures, Measure::noise_gain)) sampling_ = job.sampling;
+  }
 
   /// An exception must not leave a parallel region.
   void run() {
@@ -55,7 +64,7 @@ class Worker {
   void measure(const Slice& slice) {
     const auto settings = std::span(slice.tile->settings).subspan(slice.first, slice.count);
     measured_.resize(slice.count);
-    measure_settings(job_.method, job_.family, job_.horizon, settings, measured_);
+    measure_settings(job_.method, job_.family, job_.horizon, sampling_, settings, measured_);
     for (std::size_t i = 0; i < slice.count; ++i) {
       slice.tile->columns.set(slice.first + i, measured_[i].status, measured_[i].measures);
       if (measured_[i].method != job_.method) ++left_over_;
@@ -73,6 +82,7 @@ class Worker {
   FirstFailure& failure_;
   std::mutex& progress_;
   std::atomic<std::uint64_t>& left_over_;
+  std::optional<double> sampling_;         ///< only where noise_gain is kept
   std::vector<SettingMeasured> measured_;  ///< of the slice in hand
 };
 
@@ -81,6 +91,7 @@ class Worker {
 int usual_threads() { return omp_get_max_threads(); }
 
 SweepOutcome sweep(const SweepJob& job) {
+  PORTRAIT_CHECK(job.sampling || !keeps(job.measures, Measure::noise_gain));
   const auto begin = std::chrono::steady_clock::now();
   const int threads = job.threads > 0 ? job.threads : usual_threads();
   TileQueue queue(job.measures, job.tile_count, job.settings_of, job.prepare);

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ namespace portrait {
 struct SweepJob {
   LoopFamily family;
   Horizon horizon;
+  std::optional<double> sampling;  ///< dead times over which noise is held, for noise_gain
   Method method = Method::kernel;
   std::vector<Measure> measures;  ///< kept ones, in catalogue order
   std::uint64_t tile_count = 0;
@@ -49,7 +51,7 @@ struct SweepOutcome {
   double seconds = 0;
 };
 
-/// REQUIRES: every setting is valid for the family.
+/// REQUIRES: every setting is valid for the family; sampling is given when noise_gain is kept.
 SweepOutcome sweep(const SweepJob& job);
 
 /// As many threads as OpenMP offers on this machine; OMP_NUM_THREADS sets it.

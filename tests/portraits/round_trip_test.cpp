@@ -87,6 +87,16 @@ TEST_F(RoundTrip, HorizonUntilSettled) {
   EXPECT_TRUE(PortraitReader(in("p.h5")).grid().horizon.automatic);
 }
 
+TEST_F(RoundTrip, Sampling) {
+  Grid grid = sample::small_grid();
+  sample::write(in("without.h5"), grid);
+  EXPECT_FALSE(PortraitReader(in("without.h5")).grid().sampling);
+  grid.sampling = 0.1;
+  grid.measures.push_back(Measure::noise_gain);
+  sample::write(in("p.h5"), grid);
+  EXPECT_EQ(PortraitReader(in("p.h5")).grid().sampling, 0.1);
+}
+
 TEST_F(RoundTrip, LongGridFileAndEmptyTitle) {
   Grid grid = sample::small_grid();
   grid.title.clear();
@@ -153,7 +163,7 @@ TEST_F(RoundTrip, FactsOfTheRun) {
   EXPECT_EQ(facts.history, facts.date_created + " portrait sweep sample.toml");
   EXPECT_EQ(facts.method, "sample");
   EXPECT_EQ(facts.state, "complete");
-  EXPECT_EQ(facts.schema_version, "1.0.0");
+  EXPECT_EQ(facts.schema_version, "1.1.0");
   EXPECT_EQ(facts.wall_seconds, 1.5);
   EXPECT_EQ(facts.threads, 2);
 }

@@ -20,6 +20,7 @@ Grid grid_with(std::vector<Axis> axes) {
   Grid grid{.title = "A sample",
             .family = {.plant = Plant::dipdt, .n = 1, .prefilter = Prefilter::full},
             .horizon = Horizon::fixed(51),
+            .sampling = {},
             .precision = Precision::real64,
             .measures = {Measure::IAE_w, Measure::TV2_uw, Measure::Ms},
             .axes = std::move(axes),
@@ -33,6 +34,13 @@ Grid grid_with(std::vector<Axis> axes) {
     if (!is_axis) grid.fixed.push_back(fixed);
   }
   return grid;
+}
+
+/// The digests in portraits/FORMAT.md rest on it: it stays when a measure joins the catalogue.
+int number_of(Measure measure) {
+  if (measure == Measure::TV2_uw) return 10;
+  if (measure == Measure::Ms) return 23;
+  return static_cast<int>(measure) + 1;
 }
 
 }  // namespace
@@ -56,7 +64,7 @@ Grid grid_of(const std::vector<std::uint64_t>& sizes, Precision precision) {
 double value(Measure measure, std::uint64_t setting) {
   if (status(setting) == Status::unstable) return kNaN;
   const double x = static_cast<double>(setting);
-  return static_cast<double>(static_cast<int>(measure) + 1) + x + 1 / (x + 3);
+  return static_cast<double>(number_of(measure)) + x + 1 / (x + 3);
 }
 
 Status status(std::uint64_t setting) {

@@ -53,6 +53,7 @@ TEST(Scale, FollowsTheUnitOfTheMeasure) {
   EXPECT_EQ(scale(Measure::TV_uw, plant), 1.0 / 12);
   EXPECT_EQ(scale(Measure::u_max_d, plant), 1);
   EXPECT_EQ(scale(Measure::DM, plant), 2);
+  EXPECT_EQ(scale(Measure::noise_gain, plant), 1.0 / 12);
   EXPECT_EQ(scale(Measure::PM, plant), 1);
   EXPECT_EQ(scale(Measure::Ms, plant), 1);
   EXPECT_EQ(scale(Measure::Mt, plant), 1);

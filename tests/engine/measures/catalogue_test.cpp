@@ -11,10 +11,10 @@ namespace {
 
 /// Names that users, scripts and stored portraits rely on: none may change or leave.
 constexpr std::string_view kPublicNames[] = {
-    "IAE_w",   "IAE_d",   "TV_yw",   "TV_uw",    "TV_yd",    "TV_ud",  "TV0_yw", "TV1_yw", "TV2_yw",
-    "TV0_uw",  "TV1_uw",  "TV2_uw",  "TV0_yd",   "TV1_yd",   "TV2_yd", "TV0_ud", "TV1_ud", "TV2_ud",
-    "y_max_w", "u_max_w", "y_max_d", "u_max_d",  "Ms",       "Mt",     "ISE_w",  "ISE_d",  "ITAE_w",
-    "ITAE_d",  "ITSE_w",  "ITSE_d",  "Ms_omega", "Mt_omega", "GM",     "GM_low", "PM",     "DM",
+    "IAE_w",    "IAE_d",    "TV_yw",      "TV_uw",  "TV_yd",  "TV_ud",  "TV0_yw", "TV1_yw", "TV2_yw",  "TV0_uw",
+    "TV1_uw",   "TV2_uw",   "TV0_yd",     "TV1_yd", "TV2_yd", "TV0_ud", "TV1_ud", "TV2_ud", "y_max_w", "u_max_w",
+    "y_max_d",  "u_max_d",  "Ms",         "Mt",     "ISE_w",  "ISE_d",  "ITAE_w", "ITAE_d", "ITSE_w",  "ITSE_d",
+    "Ms_omega", "Mt_omega", "noise_gain", "GM",     "GM_low", "PM",     "DM",
 };
 
 TEST(Catalogue, HoldsThePublicNames) {
@@ -63,6 +63,7 @@ TEST(Catalogue, TheUnitIsThatOfTheSignal) {
   for (const char* name : {"Ms_omega", "Mt_omega"}) EXPECT_EQ(unit(name), Unit::per_time) << name;
   EXPECT_EQ(unit("PM"), Unit::degree);
   EXPECT_EQ(unit("DM"), Unit::time);
+  EXPECT_EQ(unit("noise_gain"), Unit::input_per_output);
   for (const char* name : {"Ms", "Mt", "GM", "GM_low"}) EXPECT_EQ(unit(name), Unit::one) << name;
 }
 

@@ -62,6 +62,7 @@ inline SweepJob job_over(const std::vector<Setting>& settings, std::size_t tile_
   SweepJob job;
   job.family = {.plant = Plant::dipdt, .n = 0, .prefilter = Prefilter::pi};
   job.horizon = Horizon::fixed(15);
+  job.sampling = 0.2;
   job.measures = collected.columns().kept;
   job.tile_count = (settings.size() + tile_size - 1) / tile_size;
   job.settings_of = [settings, tile_size](std::uint64_t tile) {

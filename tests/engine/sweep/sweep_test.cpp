@@ -7,20 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "engine/reference/measure.h"
+#include "tests/engine/base/message_of.h"
 #include "tests/engine/sweep/small_sweep.h"
 
 namespace portrait {
 namespace {
-
-template <typename Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const std::exception& failure) {
-    return failure.what();
-  }
-  return "nothing was thrown";
-}
 
 TEST(Sweep, StoresWhatTheReferenceMeasures) {
   const std::vector<Setting> settings = small_grid();
@@ -30,7 +21,8 @@ TEST(Sweep, StoresWhatTheReferenceMeasures) {
 
   MeasureColumns expected(every_measure(), settings.size());
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    const reference::Measured measured = reference::measure({job.family, settings[i]}, job.horizon);
+    const reference::Measured measured =
+        reference::measure({job.family, settings[i]}, job.horizon, {}, job.sampling);
     expected.set(i, measured.status, measured.measures);
   }
   expect_same_bits(collected.columns(), expected);
