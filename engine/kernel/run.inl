@@ -223,12 +223,13 @@ class Run {
   Output outputs_[kernel::kMaxPanels];
 };
 
-inline void store_step(const StepMeters& m, kernel::StepColumns& c) {
-  m.e.iae.to(c.iae), m.e.ise.to(c.ise), m.e.itae.to(c.itae), m.e.itse.to(c.itse);
-  m.y.variation.to(c.tv_y), m.y.deviation(abs(m.y.rest)).to(c.tv0_y), m.y.deviation(m.y.shape1).to(c.tv1_y);
-  m.y.deviation(m.y.shape2).to(c.tv2_y), m.y.largest.to(c.y_max);
-  m.u.variation.to(c.tv_u), m.u.deviation(abs(m.u.rest)).to(c.tv0_u), m.u.deviation(m.u.shape1).to(c.tv1_u);
-  m.u.deviation(m.u.shape2).to(c.tv2_u), m.u.largest.to(c.u_max);
+inline void store_step(StepMeters& m, kernel::StepColumns& c) {
+  m.evaluate();
+  m.e.iae().to(c.iae), m.e.ise().to(c.ise), m.e.itae().to(c.itae), m.e.itse().to(c.itse);
+  m.y.variation().to(c.tv_y), m.y.deviation0().to(c.tv0_y), m.y.deviation1().to(c.tv1_y);
+  m.y.deviation2().to(c.tv2_y), m.y.largest().to(c.y_max);
+  m.u.variation().to(c.tv_u), m.u.deviation0().to(c.tv0_u), m.u.deviation1().to(c.tv1_u);
+  m.u.deviation2().to(c.tv2_u), m.u.largest().to(c.u_max);
 }
 
 template <PlantKind plant, bool filtered, bool disturbed>
@@ -240,10 +241,11 @@ __attribute__((noinline)) void run_step(const Pack& pack, StepMeters& w, StepMet
 
 template <PlantKind plant, bool filtered>
 void run_family(const Pack& pack, PackResult& result) {
+  Queues queues;
   StepMeters w, d;
   Lanes dead_times = 0.0;
-  w.begin(Lanes::from(pack.y_rest_w), Lanes::from(pack.u_rest_w));
-  d.begin(Lanes::from(pack.y_rest_d), Lanes::from(pack.u_rest_d));
+  w.begin(Lanes::from(pack.y_rest_w), Lanes::from(pack.u_rest_w), queues);
+  d.begin(Lanes::from(pack.y_rest_d), Lanes::from(pack.u_rest_d), queues);
   run_step<plant, filtered, true>(pack, w, d, dead_times);
   if (pack.setpoint_run != SetpointRun::from_disturbance) run_step<plant, filtered, false>(pack, w, d, dead_times);
   dead_times.to(result.dead_times);
@@ -252,8 +254,8 @@ void run_family(const Pack& pack, PackResult& result) {
   Lanes late = 0.0, tail = 0.0;
   const ShapeMeter* meters[] = {&w.y, &w.u, &d.y, &d.u};
   for (const ShapeMeter* m : meters) {
-    late = max(late, m->late / m->furthest);
-    tail = max(tail, m->tail / m->largest);
+    late = max(late, m->late_part());
+    tail = max(tail, m->tail_part());
   }
   late.to(result.late);
   tail.to(result.tail);

@@ -1,8 +1,9 @@
 /// Everything that is metered of one step, and which part of a response a panel is.
 #pragma once
 
-#include "engine/kernel/meters.inl"
+#include "engine/kernel/error_meter.inl"
 #include "engine/kernel/pack.h"
+#include "engine/kernel/shape_meter.inl"
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
@@ -28,14 +29,26 @@ struct Place {
   bool is_cut() const { return end < 1; }
 };
 
+/// Where the meters of both steps put what needs a closer look.
+struct Queues {
+  ExtremeQueue extremes;
+  SignQueue signs;
+};
+
 struct StepMeters {
   ShapeMeter y, u;
   ErrorMeter e;
 
-  void begin(Lanes y_rest, Lanes u_rest) {
-    y.begin(y_rest);
-    u.begin(u_rest);
-    e.begin();
+  void begin(Lanes y_rest, Lanes u_rest, Queues& queues) {
+    y.begin(y_rest, queues.extremes);
+    u.begin(u_rest, queues.extremes);
+    e.begin(queues.signs);
+  }
+
+  void evaluate() {
+    y.evaluate();
+    u.evaluate();
+    e.evaluate();
   }
 };
 
@@ -54,7 +67,7 @@ inline void watch_cut(ShapeMeter& meter, const Series& f, const Series& slope, c
 /// One panel of a signal; lanes that are not at rest leave `quiet` when asked.
 inline void watch_signal(ShapeMeter& meter, const Series& f, const Series& slope, const Place& at, bool may_jump,
                          Mask active, Mask& quiet) {
-  meter.is_late = at.late;
+  if (at.late && !meter.is_late) meter.begin_late();
   if (at.is_cut()) {
     watch_cut(meter, f, slope, at, active);
   } else {
@@ -65,9 +78,7 @@ inline void watch_signal(ShapeMeter& meter, const Series& f, const Series& slope
       meter.pass(value_at_end(f), active);
   }
   if (at.last_of_all) meter.finish(active);
-  if (!at.look) return;
-  const Lanes deviation = abs(f[0] - meter.rest) + rest_bound(f, 1);
-  quiet = quiet & (deviation < Lanes(kQuiet) * meter.furthest);
+  if (at.look) quiet = quiet & meter.is_quiet(f, kQuiet);
 }
 
 inline void watch_error(ErrorMeter& meter, const Series& e, const Place& at, Mask active) {
