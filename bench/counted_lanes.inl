@@ -8,7 +8,7 @@
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
-inline constexpr int kLanes = 16;
+inline constexpr int kLanes = 8;
 
 /// Operations of each lane since the program began. One thread only.
 inline long operations = 0;

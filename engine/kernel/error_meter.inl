@@ -4,9 +4,17 @@
 /// apart, lane by lane in order of time.
 #pragma once
 
+#include "engine/kernel/sums.inl"
 #include "engine/kernel/zeros.inl"
 
 namespace portrait::PORTRAIT_ISA_NAME {
+
+/// An error on a panel: offset + scale f, with the sums over f's coefficients.
+struct Error {
+  const Series& f;
+  Lanes offset, scale;
+  const ErrorSums& sums;
+};
 
 class ErrorMeter;
 
@@ -18,7 +26,7 @@ class SignQueue {
     part_ = {Lanes(0.0), Lanes(1.0)};
     iae_ = itae_ = Lanes(0.0);
   }
-  void push(ErrorMeter& meter, int lane, const Series& e, double middle, double half);
+  void push(ErrorMeter& meter, int lane, const Error& error, double middle, double half);
   void flush();
 
  private:
@@ -40,11 +48,12 @@ class ErrorMeter {
   }
 
   /// One panel of half length `half` around the time `middle`.
-  void watch(const Series& e, double middle, double half, Mask active) {
-    add_squares(e, middle, half, active);
-    const Lanes first = abs(e[0]), rest = rest_bound(e, 1);
+  void watch(const Error& e, double middle, double half, Mask active) {
+    const Lanes e0 = mul_add(e.scale, e.f[0], e.offset), e1 = e.scale * e.f[1];
+    add_squares(e, e0, e1, middle, half, active);
+    const Lanes first = abs(e0), rest = abs(e.scale) * e.sums.rest;
     const Mask sure = active & (first > rest);
-    const Lanes length = 2 * half, moment = mul_add(Lanes(middle), e[0], Lanes(half / 3) * e[1]);
+    const Lanes length = 2 * half, moment = mul_add(Lanes(middle), e0, Lanes(half / 3) * e1);
     iae_ = select(sure, mul_add(length, first, iae_), iae_);
     itae_ = select(sure, mul_add(length, abs(moment), itae_), itae_);
     const Mask unsure = but_not(active & (first + rest > Lanes(0.0)), sure);
@@ -66,15 +75,10 @@ class ErrorMeter {
   }
 
  private:
-  /// int P_j^2 = 2/(2j+1), int x P_j P_{j-1} = 2j/((2j-1)(2j+1)) = (1 + 1/(2j-1))/(2j+1).
-  void add_squares(const Series& e, double middle, double half, Mask active) {
-    Lanes squares = e[0] * e[0], moments = Lanes(0.0), before = e[0];
-    for (int k = 1; k < kTerms; ++k) {
-      const Lanes scaled = e[k] * Lanes(1.0 / (2 * k + 1));
-      squares = mul_add(e[k], scaled, squares);
-      moments = mul_add(scaled, e[k - 1] + before, moments);
-      before = scaled;
-    }
+  void add_squares(const Error& e, Lanes e0, Lanes e1, double middle, double half, Mask active) {
+    const Lanes factor = e.scale * e.scale;
+    const Lanes squares = mul_add(factor, e.sums.squares, e0 * e0);
+    const Lanes moments = mul_add(factor, e.sums.moments, Lanes(2.0 / 3) * e0 * e1);
     ise_ = select(active, mul_add(Lanes(2 * half), squares, ise_), ise_);
     const Lanes moment = mul_add(Lanes(middle), squares, Lanes(half) * moments);
     itse_ = select(active, mul_add(Lanes(2 * half), moment, itse_), itse_);
@@ -85,8 +89,9 @@ class ErrorMeter {
   Lanes iae_of_queue_, itae_of_queue_;
 };
 
-inline void SignQueue::push(ErrorMeter& meter, int lane, const Series& e, double middle, double half) {
-  copy_lane(e_, size_, e, lane);
+inline void SignQueue::push(ErrorMeter& meter, int lane, const Error& e, double middle, double half) {
+  copy_lane(e_, size_, e.f, lane, lane_of(e.scale, lane));
+  lane_of(e_[0], size_) += lane_of(e.offset, lane);
   lane_of(part_.center, size_) = middle;
   lane_of(part_.half, size_) = half;
   meter_[size_] = &meter;

@@ -251,12 +251,20 @@ struct Lag {
     }
   }
 
-  /// w = v' for the input e from v(start). w may not be e.
+  /// Forward elimination for the input e from v(start).
+  void eliminate(Series& g, const Series& e, Lanes start) const {
+    Lanes below = g[0] = e[0] - start;
+    for (int j = 1; j < kTerms; ++j) g[j] = below = mul_sub_from(lower[j], below, e[j]);
+  }
+
+  /// Coefficient k of v' after elimination, from the one above, 0 above the last.
+  Lanes substitute(const Series& g, int k, Lanes above) const { return mul_add(upper[k], above, g[k] * inverse[k]); }
+
+  /// w = v' for the input e from v(start). w may be e.
   void set_slope(Series& w, const Series& e, Lanes start) const {
-    w[0] = e[0] - start;
-    for (int j = 1; j < kTerms; ++j) w[j] = mul_sub_from(lower[j], w[j - 1], e[j]);
-    w[kDegree] = w[kDegree] * inverse[kDegree];
-    for (int j = kDegree - 1; j >= 0; --j) w[j] = mul_add(upper[j], w[j + 1], w[j] * inverse[j]);
+    eliminate(w, e, start);
+    Lanes above = 0.0;
+    for (int k = kDegree; k >= 0; --k) w[k] = above = substitute(w, k, above);
   }
 };
 

@@ -6,7 +6,7 @@
 
 namespace portrait::kernel {
 
-inline constexpr int kMaxLanes = 16;
+inline constexpr int kMaxLanes = 8;
 inline constexpr int kMaxPanels = 64;
 inline constexpr int kMaxFilters = 16;
 

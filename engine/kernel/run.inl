@@ -1,12 +1,8 @@
 /// The closed loops of a pack, a lane each, from t = 0 to the horizon, one dead time after the other.
 ///
 /// On one dead time the measured output y is known from the interval before, so filter, controller and plant are an open
-/// chain driven by known series: every block is a tridiagonal solve or an integration in the coefficients. Inside, the
-/// error has the opposite sign, h = y - r, which saves turning y around:
-///
-///     v = Q_n h      u = -(kappa v + (kappa/tau_i) int v + delta v')     (n = 0: v' = y')
-///
-/// One run gives both responses: with all zero before t = 0 and d = 1, r = 0,
+/// chain driven by known series: every block is a tridiagonal solve or an integration in the coefficients (chain.inl). One
+/// run gives both responses: with all zero before t = 0 and d = 1, r = 0,
 ///
 ///     y_w = g0 int v + g1 v + g2 v'
 ///     u_w = y_w''(t + 1)  (dipdt),   y_w'(t + 1)  (ipdt),   tau_1 y_w'(t + 1) + y_w(t + 1)  (fotd)
@@ -14,9 +10,7 @@
 /// with g = (kappa/tau_i) (1, b, c) behind the prefilter `full`. Other prefilters that cancel give other g.
 #pragma once
 
-#include "engine/kernel/filter.inl"
-#include "engine/kernel/mesh.inl"
-#include "engine/kernel/plant.inl"
+#include "engine/kernel/chain.inl"
 #include "engine/kernel/setpoint.inl"
 #include "engine/kernel/step_meters.inl"
 
@@ -51,17 +45,11 @@ class Run {
 
  private:
   void set_up() {
-    kappa_ = Lanes::from(pack_.kappa);
-    integral_gain_ = Lanes::from(pack_.integral_gain);
-    delta_ = Lanes::from(pack_.delta);
-    tau_1_ = Lanes::from(pack_.tau_1);
-    tau_f_ = Lanes::from(pack_.tau_f);
     both_ = disturbed && pack_.setpoint_run == SetpointRun::from_disturbance;
     if (both_) derived_.begin(pack_);
     if (!disturbed) setpoint_.begin(pack_);
-    if (filtered) filter_.begin(pack_.n, tau_f_);
-    plant_.begin(tau_1_);
-    integral_ = Lanes(0.0);
+    chain_.begin(pack_, both_ ? derived_.extra(plant) : 0);
+    chain_.load = disturbed ? 1.0 : 0.0;
     active_ = Mask::from((1u << kLanes) - 1);
     set_mesh(pack_.mesh);
     for (int p = 0; p < panel_count_; ++p) outputs_[p].begin();
@@ -77,8 +65,8 @@ class Run {
       panel.start = start;
       panel.half = 0.5 * lengths[p];
       panel.weights.prepare(panel.half);
-      if (filtered) panel.filter.prepare(tau_f_, panel.half);
-      if (plant == PlantKind::fotd) panel.plant.prepare(tau_1_, panel.half);
+      if (filtered) panel.filter.prepare(Lanes::from(pack_.tau_f), panel.half);
+      if (plant == PlantKind::fotd) panel.plant.prepare(Lanes::from(pack_.tau_1), panel.half);
       if (!disturbed) setpoint_.prepare(panel.prefilter, panel.half);
     }
   }
@@ -101,62 +89,37 @@ class Run {
   void panel(int k, int p, bool look) {
     const Panel& panel = panels_[p];
     Output& z = outputs_[p];
-    const Derivatives h = negative_error(panel, z);
-    const Derivatives v = filtered ? filter_.apply(panel.filter, panel.half, h, derived_.extra(plant)) : unfiltered(h, z);
-    set_integral(sum_, *v.at[0], panel.weights, integral_);
-    integral_ = mul_add(Lanes(2 * panel.half), (*v.at[0])[0], integral_);
-
     const bool counts = reaches(k, p);
     const Place at = place(k, p, look);
     if (counts) watch_output(z, at);
-    if (both_) derive_setpoint(k, p, look, v);
-    control(v, filtered ? *v.at[1] : *h.at[1], PlantStep<plant>::input(z), PlantStep<plant>::input_slope(z));
+    if constexpr (disturbed) {
+      chain_.run(panel, {{&z.y, &z.y1, &z.y2, &z.y3}}, z.y1, z);
+    } else {
+      subtract_setpoint(panel, z);
+      chain_.run(panel, {{&error_, filtered ? &error1_ : &z.y1, &z.y2, nullptr}}, error1_, z);
+    }
+    if (both_) derive_setpoint(k, p, look);
+    Series& u = plant_input<plant>(z);
     if (counts)
-      watch_signal(disturbed ? d_.u : w_.u, PlantStep<plant>::input(z), PlantStep<plant>::input_slope(z), at,
+      watch_signal(disturbed ? d_.u : w_.u, {u, plant_input_slope<plant>(z), Lanes(1.0), chain_.u1_rest}, at,
                    kInputJumps, active_, quiet_);
-    plant_.step(z, panel.plant, panel.weights, panel.half, disturbed ? 1 : 0);
+    if (plant != PlantKind::fotd) u[0] += chain_.load;
   }
 
-  Derivatives negative_error(const Panel& panel, const Output& z) {
-    if constexpr (disturbed) return {{&z.y, &z.y1, &z.y2, &z.y3, nullptr}};
+  /// h = y - r and h' = y' - r'.
+  void subtract_setpoint(const Panel& panel, const Output& z) {
     setpoint_.next(panel.prefilter, panel.half);
     for (int k = 0; k < kTerms; ++k) {
       error_[k] = z.y[k] - setpoint_.r[k];
       error1_[k] = z.y1[k] - setpoint_.r1[k];
     }
-    return {{&error_, &error1_, nullptr, nullptr, nullptr}};
   }
 
-  /// n = 0: the ideal derivative acts on y alone.
-  static Derivatives unfiltered(const Derivatives& h, const Output& z) {
-    return {{h.at[0], &z.y1, &z.y2, &z.y3, nullptr}};
-  }
-
-  /// u and u'. The places may be those of v' and v''.
-  void control(const Derivatives& v, const Series& slope, Series& u, Series& u1) const {
-    const Series &v0 = *v.at[0], &v1 = *v.at[1], &v2 = *v.at[2];
-    for (int k = 0; k < kTerms; ++k) {
-      const Lanes a = v0[k], b = v1[k], c = v2[k], da = slope[k];
-      u[k] = -mul_add(kappa_, a, mul_add(integral_gain_, sum_[k], delta_ * b));
-      u1[k] = -mul_add(kappa_, da, mul_add(integral_gain_, a, delta_ * c));
-    }
-  }
-
+  /// y, and e = 0 - y or 1 - y.
   void watch_output(const Output& z, const Place& at) {
-    if constexpr (disturbed) {
-      watch_signal(d_.y, z.y, z.y1, at, false, active_, quiet_);
-      watch_error(d_.e, z.y, at, active_);
-    } else {
-      watch_signal(w_.y, z.y, z.y1, at, false, active_, quiet_);
-      watch_setpoint_error(z.y, at);
-    }
-  }
-
-  /// e = 1 - y
-  void watch_setpoint_error(const Series& y, const Place& at) {
-    copy(scratch_[2], y);
-    scratch_[2][0] += Lanes(-1.0);
-    watch_error(w_.e, scratch_[2], at, active_);
+    StepMeters& m = disturbed ? d_ : w_;
+    watch_signal(m.y, {z.y, z.y1, Lanes(1.0), z.slope_rest}, at, false, active_, quiet_);
+    watch_error(m.e, {z.y, Lanes(disturbed ? 0.0 : 1.0), Lanes(-1.0), z.sums}, at, active_);
   }
 
   /// Whether panel p of interval k has a part before the horizon.
@@ -180,29 +143,43 @@ class Run {
   }
 
   /// y_w of this interval, and u_w of the one before.
-  void derive_setpoint(int k, int p, bool look, const Derivatives& v) {
-    constexpr int kRelativeDegree = plant == PlantKind::dipdt ? 2 : plant == PlantKind::ipdt ? 1 : 0;
-    Series &y = scratch_[0], &y1 = scratch_[1];
+  void derive_setpoint(int k, int p, bool look) {
     const bool for_y = reaches(k, p), for_u = reaches(k - 1, p);
-    derived_.set(y1, 1, sum_, v);
-    if (for_y || plant == PlantKind::fotd) derived_.set(y, 0, sum_, v);
-    if (for_y) {
-      const Place at = place(k, p, look);
-      watch_signal(w_.y, y, y1, at, false, active_, quiet_);
-      watch_setpoint_error(y, at);
+    if (derived_.is_scaled() && plant != PlantKind::fotd) {
+      const Lanes g0 = derived_.scale();
+      if (for_y) watch_derived_output({chain_.sum, chain_.v, g0, chain_.v_rest}, chain_.of_sum, place(k, p, look));
+      const Series& u = kRelativeDegree == 2 ? chain_.v1 : chain_.v;
+      const Series& u1 = kRelativeDegree == 2 ? chain_.v2 : chain_.v1;
+      if (for_u) watch_derived_input({u, u1, g0, chain_.w_input_rest}, place(k - 1, p, look));
+      return;
     }
+    Series &f = scratch_[0], &slope = scratch_[1];
+    derived_.set(f, 0, chain_);
+    derived_.set(slope, 1, chain_);
+    if (for_y) watch_derived_output({f, slope, Lanes(1.0), rest_of(slope)}, error_sums_of(f), place(k, p, look));
     if (!for_u) return;
-    Series &u = kRelativeDegree == 1 ? y1 : y, &u1 = kRelativeDegree == 1 ? y : y1;
     if constexpr (plant == PlantKind::fotd) {
-      derived_.set(scratch_[2], 2, sum_, v);
-      add_scaled(y, tau_1_, y1);
-      add_scaled(y1, tau_1_, scratch_[2]);
+      const Lanes tau_1 = Lanes::from(pack_.tau_1);
+      derived_.set(scratch_[2], 2, chain_);
+      add_scaled(f, tau_1, slope);
+      add_scaled(slope, tau_1, scratch_[2]);
     } else {
-      if (kRelativeDegree == 2) derived_.set(u, 2, sum_, v);
-      derived_.set(u1, kRelativeDegree + 1, sum_, v);
+      derived_.set(f, kRelativeDegree, chain_);
+      derived_.set(slope, kRelativeDegree + 1, chain_);
     }
-    watch_signal(w_.u, u, u1, place(k - 1, p, look), kInputJumps, active_, quiet_);
+    watch_derived_input({f, slope, Lanes(1.0), rest_of(slope)}, place(k - 1, p, look));
   }
+
+  void watch_derived_output(const Signal& y, const ErrorSums& sums, const Place& at) {
+    watch_signal(w_.y, y, at, false, active_, quiet_);
+    watch_error(w_.e, {y.f, Lanes(1.0), -y.scale, sums}, at, active_);
+  }
+
+  void watch_derived_input(const Signal& u, const Place& at) {
+    watch_signal(w_.u, u, at, kInputJumps, active_, quiet_);
+  }
+
+  static constexpr int kRelativeDegree = plant == PlantKind::dipdt ? 2 : plant == PlantKind::ipdt ? 1 : 0;
 
   /// u jumps after every dead time where an ideal derivative meets a plant that passes jumps on.
   static constexpr bool kInputJumps = !filtered && plant != PlantKind::dipdt;
@@ -212,13 +189,11 @@ class Run {
   StepMeters &w_, &d_;
   bool both_ = false;
   int panel_count_ = 0;
-  Lanes kappa_, integral_gain_, delta_, tau_1_, tau_f_, integral_;
   Mask active_, quiet_;
-  Filter filter_;
-  PlantStep<plant> plant_;
+  Chain<plant, filtered> chain_;
   DerivedSetpoint derived_;
   FilteredSetpoint setpoint_;
-  Series sum_, error_, error1_, scratch_[3];
+  Series error_, error1_, scratch_[3];
   Panel panels_[kernel::kMaxPanels];
   Output outputs_[kernel::kMaxPanels];
 };

@@ -1,12 +1,12 @@
 /// The response to the setpoint: from the disturbance run by the identity, or driven through the prefilter.
 #pragma once
 
-#include "engine/kernel/filter.inl"
+#include "engine/kernel/pack.h"
 #include "engine/kernel/prefilter.inl"
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
-/// y_w and u_w by the identity. y_w's derivatives are sums of three neighbours: level 0 is y_w, level 1 y_w', ...
+/// y_w and u_w by the identity. Level 0 is y_w, level 1 y_w', ...: each a sum of three neighbours among int v, v, v', ...
 class DerivedSetpoint {
  public:
   void begin(const kernel::Pack& pack) {
@@ -15,18 +15,22 @@ class DerivedSetpoint {
     has_g2_ = any(abs(g2_) > Lanes(0.0));
   }
 
+  /// Every level is g0 times one series.
+  bool is_scaled() const { return !has_g1_ && !has_g2_; }
+  Lanes scale() const { return g0_; }
+
   /// Derivatives of v beyond v'' that u_w' asks for.
   int extra(kernel::PlantKind plant) const {
     const int terms = has_g2_ ? 2 : has_g1_ ? 1 : 0;
     return plant == kernel::PlantKind::dipdt ? terms : terms == 2 ? 1 : 0;
   }
 
-  void set(Series& to, int level, const Series& sum, const Derivatives& v) const {
-    const Series& first = level == 0 ? sum : *v.at[level - 1];
-    if (!has_g1_ && !has_g2_) return set_scaled(to, g0_, first);
-    const Series& second = *v.at[level];
-    for (int k = 0; k < kTerms; ++k) to[k] = mul_add(g1_, second[k], g0_ * first[k]);
-    if (has_g2_) add_scaled(to, g2_, *v.at[level + 1]);
+  template <typename Chain>
+  void set(Series& to, int level, const Chain& chain) const {
+    const Series* const terms[] = {&chain.sum, &chain.v, &chain.v1, &chain.v2, &chain.v3, &chain.v4};
+    set_scaled(to, g0_, *terms[level]);
+    if (has_g1_) add_scaled(to, g1_, *terms[level + 1]);
+    if (has_g2_) add_scaled(to, g2_, *terms[level + 2]);
   }
 
  private:

@@ -13,6 +13,13 @@ namespace portrait::PORTRAIT_ISA_NAME {
 
 inline constexpr double kNegligible = 1e-14;
 
+/// A signal on a panel: scale times f, with f' per dead time and its sum of |c_k|, k >= 1.
+struct Signal {
+  const Series& f;
+  const Series& slope;
+  Lanes scale, slope_rest;
+};
+
 class ShapeMeter;
 
 /// Panels of single lanes on which the slope may vanish.
@@ -24,7 +31,7 @@ class ExtremeQueue {
     half_ = rising_ = Lanes(0.0);
   }
 
-  void push(ShapeMeter& meter, int lane, const Series& f, const Series& slope, double half, double direction);
+  void push(ShapeMeter& meter, int lane, const Signal& signal, double half, double direction);
   void flush();
 
  private:
@@ -61,17 +68,18 @@ class ShapeMeter {
     rising_ = select(jumps, Lanes(0.0), rising_);
   }
 
-  /// One panel: f, f' per dead time, half the panel's length.
-  void watch(const Series& f, const Series& slope, double half, Mask active) {
-    tail_ = select(active, max(tail_, abs(f[kDegree]) + abs(f[kDegree - 1])), tail_);
-    const Lanes first = abs(slope[0]), rest_of_slope = rest_bound(slope, 1);
-    scale_ = select(active, max(scale_, abs(f[0])), scale_);
-    reach_ = select(active, max(reach_, abs(f[0] - rest_)), reach_);
+  /// One panel, of the given half length.
+  void watch(const Signal& s, double half, Mask active) {
+    const Lanes size = abs(s.scale), first = abs(s.slope[0]), mean = s.scale * s.f[0];
+    tail_ = select(active, max(tail_, size * (abs(s.f[kDegree]) + abs(s.f[kDegree - 1]))), tail_);
+    scale_ = select(active, max(scale_, abs(mean)), scale_);
+    reach_ = select(active, max(reach_, abs(mean - rest_)), reach_);
     // What moves less than rounding has no direction.
-    const Mask moves = active & (Lanes(half) * (first + rest_of_slope) > Lanes(kNegligible) * scale_);
-    const Mask unsure = but_not(moves, first > rest_of_slope);
-    if (any(unsure)) return watch_closely(f, slope, half, moves, unsure);
-    go_on(slope[0], slope[0], f, moves);
+    const Mask moves = active & (Lanes(half) * size * (first + s.slope_rest) > Lanes(kNegligible) * scale_);
+    const Mask unsure = but_not(moves, first > s.slope_rest);
+    if (any(unsure)) return watch_closely(s, half, moves, unsure);
+    const Lanes slope = s.scale * s.slope[0];
+    go_on(slope, slope, s, moves);
   }
 
   /// The value at an edge of a panel.
@@ -96,8 +104,8 @@ class ShapeMeter {
   }
 
   /// Lanes in which f stays at rest on this panel.
-  Mask is_quiet(const Series& f, double part) const {
-    return abs(f[0] - rest_) + rest_bound(f, 1) < Lanes(part) * reach_;
+  Mask is_quiet(const Signal& s, double part) const {
+    return abs(mul_add(s.scale, s.f[0], -rest_)) + abs(s.scale) * rest_bound(s.f, 1) < Lanes(part) * reach_;
   }
 
   Lanes variation() const { return variation_; }
@@ -130,24 +138,24 @@ class ShapeMeter {
   }
 
   /// From the panel's start f goes in the direction of `slope`, at its end in that of `end`.
-  void go_on(Lanes slope, Lanes end, const Series& f, Mask mask) {
+  void go_on(Lanes slope, Lanes end, const Signal& s, Mask mask) {
     const Lanes direction = select(slope > Lanes(0.0), Lanes(1.0), Lanes(-1.0));
     const Mask turned = mask & (direction * rising_ < Lanes(0.0));
-    if (any(turned)) turn(value_at_start(f), turned);
+    if (any(turned)) turn(s.scale * value_at_start(s.f), turned);
     rising_ = select(mask, select(end > Lanes(0.0), Lanes(1.0), Lanes(-1.0)), rising_);
   }
 
-  __attribute__((noinline)) void watch_closely(const Series& f, const Series& slope, double half, Mask moves,
-                                               Mask unsure) {
-    const Ends ends = ends_of(slope);
+  __attribute__((noinline)) void watch_closely(const Signal& s, double half, Mask moves, Mask unsure) {
+    Ends ends = ends_of(s.slope);
+    ends = {s.scale * ends.left, s.scale * ends.right};
     // Where f' is 0 at one end its direction is that of the other.
     const Mask no_start = !(abs(ends.left) > Lanes(0.0)), no_end = !(abs(ends.right) > Lanes(0.0));
     const Lanes start = select(no_start, ends.right, ends.left), end = select(no_end, ends.left, ends.right);
-    go_on(start, end, f, but_not(moves, no_start & no_end));
+    go_on(start, end, s, but_not(moves, no_start & no_end));
     for (unsigned left = bits(unsure); left != 0; left &= left - 1) {
       const int lane = __builtin_ctz(left);
       waiting_ |= 1u << lane;
-      queue_->push(*this, lane, f, slope, half, lane_of(start, lane));
+      queue_->push(*this, lane, s, half, lane_of(start, lane));
     }
   }
 
@@ -198,10 +206,10 @@ class ShapeMeter {
   int count_[kLanes] = {};
 };
 
-inline void ExtremeQueue::push(ShapeMeter& meter, int lane, const Series& f, const Series& slope, double half,
-                               double direction) {
-  copy_lane(f_, size_, f, lane);
-  copy_lane(slope_, size_, slope, lane);
+inline void ExtremeQueue::push(ShapeMeter& meter, int lane, const Signal& s, double half, double direction) {
+  const double scale = lane_of(s.scale, lane);
+  copy_lane(f_, size_, s.f, lane, scale);
+  copy_lane(slope_, size_, s.slope, lane, scale);
   lane_of(half_, size_) = half;
   lane_of(rising_, size_) = direction > 0 ? 1.0 : -1.0;
   meter_[size_] = &meter;

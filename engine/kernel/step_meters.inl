@@ -55,38 +55,37 @@ struct StepMeters {
 /// What stays within this part of its largest deviation from rest, over a dead time, is at rest for good.
 inline constexpr double kQuiet = 1e-11;
 
-inline void watch_cut(ShapeMeter& meter, const Series& f, const Series& slope, const Place& at, Mask active) {
-  Series g, g1;
-  set_cut_off(g, f, at.end);
-  set_cut_off(g1, slope, at.end);
-  if (at.first_of_interval) meter.enter(value_at_start(g), active);
-  meter.watch(g, g1, 0.5 * at.half * (at.end + 1), active);
-  meter.pass(value_at_end(g), active);
+inline void watch_cut(ShapeMeter& meter, const Signal& s, const Place& at, Mask active) {
+  Series f, slope;
+  set_cut_off(f, s.f, at.end);
+  set_cut_off(slope, s.slope, at.end);
+  if (at.first_of_interval) meter.enter(s.scale * value_at_start(f), active);
+  meter.watch({f, slope, s.scale, rest_of(slope)}, 0.5 * at.half * (at.end + 1), active);
+  meter.pass(s.scale * value_at_end(f), active);
 }
 
 /// One panel of a signal; lanes that are not at rest leave `quiet` when asked.
-inline void watch_signal(ShapeMeter& meter, const Series& f, const Series& slope, const Place& at, bool may_jump,
-                         Mask active, Mask& quiet) {
+inline void watch_signal(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump, Mask active, Mask& quiet) {
   if (at.late && !meter.is_late) meter.begin_late();
   if (at.is_cut()) {
-    watch_cut(meter, f, slope, at, active);
+    watch_cut(meter, s, at, active);
   } else {
-    if (at.first_of_all || (at.first_of_interval && may_jump)) meter.enter(value_at_start(f), active);
-    if (at.first_of_interval && at.late) meter.pass(value_at_start(f), active);
-    meter.watch(f, slope, at.half, active);
+    if (at.first_of_all || (at.first_of_interval && may_jump)) meter.enter(s.scale * value_at_start(s.f), active);
+    if (at.first_of_interval && at.late) meter.pass(s.scale * value_at_start(s.f), active);
+    meter.watch(s, at.half, active);
     if (at.late || at.last_of_all || (at.last_of_interval && (may_jump || at.look)))
-      meter.pass(value_at_end(f), active);
+      meter.pass(s.scale * value_at_end(s.f), active);
   }
   if (at.last_of_all) meter.finish(active);
-  if (at.look) quiet = quiet & meter.is_quiet(f, kQuiet);
+  if (at.look) quiet = quiet & meter.is_quiet(s, kQuiet);
 }
 
-inline void watch_error(ErrorMeter& meter, const Series& e, const Place& at, Mask active) {
+inline void watch_error(ErrorMeter& meter, const Error& e, const Place& at, Mask active) {
   if (!at.is_cut()) return meter.watch(e, at.middle, at.half, active);
   Series cut;
-  set_cut_off(cut, e, at.end);
+  set_cut_off(cut, e.f, at.end);
   const double half = 0.5 * at.half * (at.end + 1);
-  meter.watch(cut, at.middle - at.half + half, half, active);
+  meter.watch({cut, e.offset, e.scale, error_sums_of(cut)}, at.middle - at.half + half, half, active);
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -108,8 +108,9 @@ void search_zeros(const Series& f, const Part& part, Mask mask, int halvings_lef
 inline double& lane_of(Lanes& a, int lane) { return reinterpret_cast<double*>(&a)[lane]; }
 inline const double& lane_of(const Lanes& a, int lane) { return reinterpret_cast<const double*>(&a)[lane]; }
 
-inline void copy_lane(Series& to, int slot, const Series& from, int lane) {
-  for (int k = 0; k < kTerms; ++k) lane_of(to[k], slot) = lane_of(from[k], lane);
+/// A lane of `from`, times a factor.
+inline void copy_lane(Series& to, int slot, const Series& from, int lane, double factor) {
+  for (int k = 0; k < kTerms; ++k) lane_of(to[k], slot) = factor * lane_of(from[k], lane);
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME
