@@ -37,9 +37,7 @@ template <kernel::PlantKind kind, bool filtered>
 class Chain {
  public:
   Series v, v1, v2, v3, v4, sum;  ///< v and its derivatives; int v
-  Lanes v_rest;            ///< of v; y_w' is that of the setpoint step
-  Lanes w_input_rest;      ///< of the derivative of v that u_w' is
-  Lanes u1_rest;           ///< of u'
+  Lanes sum_rest, v_rest, v1_rest, v2_rest, u1_rest;  ///< at least the sums of |c_k|, k >= 1
   ErrorSums of_sum;
 
   void begin(const kernel::Pack& pack, int extra) {
@@ -48,8 +46,8 @@ class Chain {
     tau_f_ = Lanes::from(pack.tau_f), tau_1_ = Lanes::from(pack.tau_1);
     if (filtered) filter_.begin(order_, tau_f_);
     if (kind == kernel::PlantKind::fotd) plant_rate_ = Lanes(1.0) / tau_1_;
-    kappa_ = Lanes::from(pack.kappa), integral_gain_ = Lanes::from(pack.integral_gain);
-    delta_ = Lanes::from(pack.delta);
+    kappa_ = -Lanes::from(pack.kappa), integral_gain_ = -Lanes::from(pack.integral_gain);
+    delta_ = -Lanes::from(pack.delta);
     integral_ = z_ = z1_ = Lanes(0.0);
   }
 
@@ -87,22 +85,21 @@ class Chain {
 
   void pass(const Panel& panel, const Derivatives& h, const Series& h1, Output& z) {
     Integration of_v(panel.weights), of_u(panel.weights), of_z1(panel.weights);
-    Rest rest_v, rest_w, rest_u1, rest_slope;
+    Rest rest_v2, rest_u1;
     ErrorSums sums, z_sums;
     Filtered above{Lanes(0.0), Lanes(0.0), Lanes(0.0), Lanes(0.0)};
     Series &u = plant_input<kind>(z), &u1 = plant_input_slope<kind>(z);
 
     // u_k and what follows from it, one coefficient behind v.
     const auto act = [&](int k, Lanes integral, Lanes extra_load) {
-      const Lanes input = -mul_add(kappa_, above.v, mul_add(integral_gain_, integral, delta_ * above.v1));
+      const Lanes input = mul_add(kappa_, above.v, mul_add(integral_gain_, integral, delta_ * above.v1));
       u[k] = input;
       if constexpr (kind == kernel::PlantKind::dipdt) {
         const Lanes z1 = of_u.give(k, input + extra_load);
-        if (k < kDegree) drive_double(k + 1, z1, of_z1, rest_slope, z_sums, z);
+        if (k < kDegree) drive_double(k + 1, z1, of_z1, z_sums, z);
       } else if constexpr (kind == kernel::PlantKind::ipdt) {
         const Lanes y = of_u.give(k, input + extra_load);
         if (k < kDegree) z.y[k + 1] = y, z_sums.add(k + 1, y);
-        if (k > 0) rest_slope.add(input);
       }
     };
 
@@ -115,8 +112,8 @@ class Chain {
         sums.add(k + 1, integral);
         act(k + 1, integral, Lanes(0.0));
       }
-      const Lanes slope = -mul_add(kappa_, here.slope, mul_add(integral_gain_, here.v, delta_ * here.v2));
-      if (k > 0) rest_v.add(here.v), rest_w.add(kind == kernel::PlantKind::ipdt ? here.v1 : here.v2), rest_u1.add(slope);
+      const Lanes slope = mul_add(kappa_, here.slope, mul_add(integral_gain_, here.v, delta_ * here.v2));
+      if (k > 0) rest_v2.add(here.v2), rest_u1.add(slope);
       v[k] = here.v, v1[k] = here.v1, v2[k] = here.v2;
       u1[k] = slope;
       above = here;
@@ -124,20 +121,33 @@ class Chain {
     sum[0] = of_v.last(integral_);
     integral_ = mul_add(Lanes(2 * panel.half), above.v, integral_);
     act(0, sum[0], load);
-    finish(panel, of_u, of_z1, rest_slope, z_sums, z);
-    v_rest = rest_v.sum, w_input_rest = rest_w.sum, u1_rest = rest_u1.sum, of_sum = sums;
+    finish(panel, of_u, of_z1, z_sums, z);
+    of_sum = sums;
+    v2_rest = rest_v2.sum, u1_rest = rest_u1.sum;
+    bound_rests(panel.half, z);
+  }
+
+  /// What is integrated from v'' and u' has no sum of its own.
+  void bound_rests(double half, Output& z) {
+    v1_rest = filtered ? rest_of_integral(half, v2[0], v2_rest) : rest_of(v1);
+    v_rest = filtered ? rest_of_integral(half, v1[0], v1_rest) : rest_of(v);
+    sum_rest = rest_of_integral(half, v[0], v_rest);
+    if constexpr (kind == kernel::PlantKind::fotd) return;
+    const Lanes u_rest = rest_of_integral(half, plant_input_slope<kind>(z)[0], u1_rest);
+    const Lanes driven = rest_of_integral(half, plant_input<kind>(z)[0] + load, u_rest);
+    z.slope_rest = kind == kernel::PlantKind::dipdt ? driven : u_rest;
+    z.rest = kind == kernel::PlantKind::dipdt ? rest_of_integral(half, z.y1[0], driven) : driven;
   }
 
   /// z1_k of the double integrator, and z_{k+1}.
-  static void drive_double(int k, Lanes z1, Integration& of_z1, Rest& rest, ErrorSums& sums, Output& z) {
+  static void drive_double(int k, Lanes z1, Integration& of_z1, ErrorSums& sums, Output& z) {
     z.y1[k] = z1;
-    rest.add(z1);
     const Lanes y = of_z1.give(k, z1);
     if (k < kDegree) z.y[k + 1] = y, sums.add(k + 1, y);
   }
 
   /// The first coefficients, with the states at the panel's start, and the states at its end.
-  void finish(const Panel& panel, Integration& of_u, Integration& of_z1, const Rest& rest, ErrorSums& sums, Output& z) {
+  void finish(const Panel& panel, Integration& of_u, Integration& of_z1, ErrorSums& sums, Output& z) {
     [[maybe_unused]] const Lanes length = 2 * panel.half;
     [[maybe_unused]] const Lanes mean = plant_input<kind>(z)[0] + load;
     if constexpr (kind == kernel::PlantKind::dipdt) {
@@ -151,10 +161,7 @@ class Chain {
       z.y[0] = of_u.last(z_);
       z_ = mul_add(length, mean, z_);
     }
-    if constexpr (kind != kernel::PlantKind::fotd) {
-      z.slope_rest = rest.sum;
-      z.sums = sums;
-    }
+    if constexpr (kind != kernel::PlantKind::fotd) z.sums = sums;
   }
 
   /// fotd: z' by the lag's solver, z = u + d - tau_1 z', z'' = (u' - z')/tau_1.
@@ -173,13 +180,14 @@ class Chain {
     z.u[0] = z.u[0] - load;
     z_ = mul_add(Lanes(2 * panel.half), z.y1[0], z_);
     z.slope_rest = rest.sum;
+    z.rest = rest_of_integral(panel.half, above, rest.sum);
     z.sums = sums;
   }
 
   Filter filter_;
   int order_ = 0, extra_ = 0;
   Lanes tau_f_, tau_1_, plant_rate_;
-  Lanes kappa_, integral_gain_, delta_;
+  Lanes kappa_, integral_gain_, delta_;  ///< times -1
   Lanes integral_, z_, z1_;
 };
 

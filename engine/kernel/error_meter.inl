@@ -9,10 +9,10 @@
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
-/// An error on a panel: offset + scale f, with the sums over f's coefficients.
+/// An error on a panel: offset + scale f, with at least the sum of |c_k|, k >= 1, and the sums over f's coefficients.
 struct Error {
   const Series& f;
-  Lanes offset, scale;
+  Lanes offset, scale, rest;
   const ErrorSums& sums;
 };
 
@@ -51,7 +51,7 @@ class ErrorMeter {
   void watch(const Error& e, double middle, double half, Mask active) {
     const Lanes e0 = mul_add(e.scale, e.f[0], e.offset), e1 = e.scale * e.f[1];
     add_squares(e, e0, e1, middle, half, active);
-    const Lanes first = abs(e0), rest = abs(e.scale) * e.sums.rest;
+    const Lanes first = abs(e0), rest = abs(e.scale) * e.rest;
     const Mask sure = active & (first > rest);
     const Lanes length = 2 * half, moment = mul_add(Lanes(middle), e0, Lanes(half / 3) * e1);
     iae_ = select(sure, mul_add(length, first, iae_), iae_);

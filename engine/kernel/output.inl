@@ -11,7 +11,7 @@ namespace portrait::PORTRAIT_ISA_NAME {
 struct Output {
   Series y, y1, y2, y3;  ///< y and derivatives: three of dipdt, two of the others
   Series u, u1;          ///< of fotd; the others have u + d and u' among the derivatives of y
-  Lanes slope_rest;      ///< of y1
+  Lanes rest, slope_rest;  ///< at least the sums of |c_k|, k >= 1, of y and y1
   ErrorSums sums;        ///< of y
 
   void begin() {
@@ -19,6 +19,7 @@ struct Output {
     sum_up();
   }
   void sum_up() {
+    rest = rest_of(y);
     slope_rest = rest_of(y1);
     sums = error_sums_of(y);
   }
@@ -43,7 +44,7 @@ inline void join(Output& to, const Output& left, const Output& right) {
 
 inline void copy(Output& to, const Output& from) {
   copy(to.y, from.y), copy(to.y1, from.y1), copy(to.y2, from.y2), copy(to.y3, from.y3);
-  to.slope_rest = from.slope_rest;
+  to.rest = from.rest, to.slope_rest = from.slope_rest;
   to.sums = from.sums;
 }
 

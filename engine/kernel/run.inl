@@ -119,7 +119,7 @@ class Run {
   void watch_output(const Output& z, const Place& at) {
     StepMeters& m = disturbed ? d_ : w_;
     watch_signal(m.y, {z.y, z.y1, Lanes(1.0), z.slope_rest}, at, false, active_, quiet_);
-    watch_error(m.e, {z.y, Lanes(disturbed ? 0.0 : 1.0), Lanes(-1.0), z.sums}, at, active_);
+    watch_error(m.e, {z.y, Lanes(disturbed ? 0.0 : 1.0), Lanes(-1.0), z.rest, z.sums}, at, active_);
   }
 
   /// Whether panel p of interval k has a part before the horizon.
@@ -147,16 +147,18 @@ class Run {
     const bool for_y = reaches(k, p), for_u = reaches(k - 1, p);
     if (derived_.is_scaled() && plant != PlantKind::fotd) {
       const Lanes g0 = derived_.scale();
-      if (for_y) watch_derived_output({chain_.sum, chain_.v, g0, chain_.v_rest}, chain_.of_sum, place(k, p, look));
+      if (for_y) watch_derived_output({chain_.sum, chain_.v, g0, chain_.v_rest}, chain_.sum_rest, chain_.of_sum,
+                             place(k, p, look));
       const Series& u = kRelativeDegree == 2 ? chain_.v1 : chain_.v;
       const Series& u1 = kRelativeDegree == 2 ? chain_.v2 : chain_.v1;
-      if (for_u) watch_derived_input({u, u1, g0, chain_.w_input_rest}, place(k - 1, p, look));
+      if (for_u) watch_derived_input({u, u1, g0, kRelativeDegree == 2 ? chain_.v2_rest : chain_.v1_rest}, place(k - 1, p, look));
       return;
     }
     Series &f = scratch_[0], &slope = scratch_[1];
     derived_.set(f, 0, chain_);
     derived_.set(slope, 1, chain_);
-    if (for_y) watch_derived_output({f, slope, Lanes(1.0), rest_of(slope)}, error_sums_of(f), place(k, p, look));
+    if (for_y)
+      watch_derived_output({f, slope, Lanes(1.0), rest_of(slope)}, rest_of(f), error_sums_of(f), place(k, p, look));
     if (!for_u) return;
     if constexpr (plant == PlantKind::fotd) {
       const Lanes tau_1 = Lanes::from(pack_.tau_1);
@@ -170,9 +172,9 @@ class Run {
     watch_derived_input({f, slope, Lanes(1.0), rest_of(slope)}, place(k - 1, p, look));
   }
 
-  void watch_derived_output(const Signal& y, const ErrorSums& sums, const Place& at) {
+  void watch_derived_output(const Signal& y, Lanes rest, const ErrorSums& sums, const Place& at) {
     watch_signal(w_.y, y, at, false, active_, quiet_);
-    watch_error(w_.e, {y.f, Lanes(1.0), -y.scale, sums}, at, active_);
+    watch_error(w_.e, {y.f, Lanes(1.0), -y.scale, rest, sums}, at, active_);
   }
 
   void watch_derived_input(const Signal& u, const Place& at) {

@@ -13,7 +13,7 @@ namespace portrait::PORTRAIT_ISA_NAME {
 
 inline constexpr double kNegligible = 1e-14;
 
-/// A signal on a panel: scale times f, with f' per dead time and its sum of |c_k|, k >= 1.
+/// A signal on a panel: scale times f, with f' per dead time and at least its sum of |c_k|, k >= 1.
 struct Signal {
   const Series& f;
   const Series& slope;

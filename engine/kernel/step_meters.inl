@@ -85,7 +85,7 @@ inline void watch_error(ErrorMeter& meter, const Error& e, const Place& at, Mask
   Series cut;
   set_cut_off(cut, e.f, at.end);
   const double half = 0.5 * at.half * (at.end + 1);
-  meter.watch({cut, e.offset, e.scale, error_sums_of(cut)}, at.middle - at.half + half, half, active);
+  meter.watch({cut, e.offset, e.scale, rest_bound(cut, 1), error_sums_of(cut)}, at.middle - at.half + half, half, active);
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME
