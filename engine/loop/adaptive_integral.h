@@ -1,8 +1,8 @@
 /// Integral of a smooth function over panels that are halved where they are too wide.
 ///
-/// Each panel has a Kronrod rule of 15 points and the Gauss rule of 7 among them; the panel on which the two differ most
-/// is halved first, until all differences together are below a part of the integral. The Kronrod values that are added
-/// up are far closer than that.                                                                  [QUADPACK, qk15]
+/// Each panel has a Kronrod rule of 15 points and the Gauss rule of 7 among them; the panel on which the two differ
+/// most is halved first, until all differences together are below a part of the integral. The Kronrod values that
+/// are added up are far closer than that.
 /// cost      15 values a panel
 #pragma once
 

@@ -9,8 +9,8 @@
 
 namespace portrait {
 
-/// `sampling` in dead times, for noise_gain, which is left NaN without it. REQUIRES: the loop is stable; sampling is
-/// finite and above 0.
+/// `sampling` in dead times, for noise_gain, which is left as it is without it.
+/// REQUIRES: the loop is stable; sampling is finite and above 0.
 void measure_loop(const Loop& loop, std::optional<double> sampling, MeasureRow& row);
 
 }  // namespace portrait

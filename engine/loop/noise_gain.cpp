@@ -5,8 +5,6 @@
 #include <complex>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "engine/base/check.h"
 #include "engine/loop/adaptive_integral.h"
 #include "engine/loop/open_loop.h"
@@ -52,23 +50,6 @@ struct Factors {
   }
 };
 
-/// All complex roots, as eigenvalues of the companion matrix. REQUIRES: first and last coefficient are not 0.
-std::vector<Complex> roots_of(const Polynomial& p) {
-  const auto degree = static_cast<Eigen::Index>(p.size()) - 1;
-  if (degree < 1) return {};
-  // Roots of about size 1 keep the matrix balanced.
-  const double size = std::pow(std::abs(p.front() / p.back()), 1.0 / static_cast<double>(degree));
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(degree, degree);
-  for (Eigen::Index i = 0; i + 1 < degree; ++i) companion(i + 1, i) = 1;
-  for (Eigen::Index i = 0; i < degree; ++i)
-    companion(i, degree - 1) =
-        -p[static_cast<std::size_t>(i)] / p.back() * std::pow(size, static_cast<double>(i - degree));
-  const Eigen::VectorXcd values = companion.eigenvalues();
-  std::vector<Complex> roots;
-  for (Eigen::Index i = 0; i < values.size(); ++i) roots.push_back(size * values(i));
-  return roots;
-}
-
 /// 1 - e^{-z}
 Complex one_less_exp(Complex z) {
   const double x = -z.real(), y = -z.imag(), half = std::sin(0.5 * y);
@@ -97,10 +78,9 @@ class NoiseIntegral {
 
   /// W: no zero of 1 - L(s) L(-s) lies between the real axis and the turned paths, or near them.
   double turning_frequency() const {
-    Polynomial p = difference(squared_, denominator_squared(open_));
-    while (p.back() == 0) p.pop_back();
+    const Polynomial p = difference(squared_, denominator_squared(open_));
     double lowest = 1;
-    for (const Complex& x : roots_of(p)) {
+    for (const Complex& x : complex_roots(p)) {
       const Complex omega = std::sqrt(x);
       lowest = std::max(lowest, 1.3 * omega.real() - 1.5 * std::abs(omega.imag()));
     }
@@ -118,8 +98,8 @@ class NoiseIntegral {
     return all;
   }
 
-  /// A fraction of a turn of e^{-s} and e^{-s Ts} apart; finer where the loop is slow; and where |S| may have a peak, as
-  /// narrow as it likes: its flanks show from there.
+  /// A fraction of a turn of e^{-s} and e^{-s Ts} apart, finer where the loop is slow; and where |S| may have a
+  /// peak, as narrow as it likes: its flanks show from there.
   std::vector<double> axis_edges() const {
     std::vector<double> edges{0};
     const double widest = std::min(4 / (1 + Ts_), turn_at_);

@@ -88,7 +88,8 @@ std::vector<double> gain_extremes(const OpenLoop& loop) {
   return roots_of_x(difference(product(derivative(n), d), product(n, derivative(d))));
 }
 
-/// arg L has the slope n1 (n0 + n2 x)/|N|^2 - 1 - sum_i T_i/(1 + T_i^2 x), x = omega^2; equal lags share a denominator.
+/// arg L has the slope n1 (n0 + n2 x)/|N|^2 - 1 - sum_i T_i/(1 + T_i^2 x), x = omega^2; equal lags share a
+/// denominator.
 std::vector<double> phase_extremes(const OpenLoop& loop) {
   const auto& [n0, n1, n2] = loop.numerator;
   const Polynomial n = numerator_squared(loop);

@@ -12,8 +12,8 @@
 
 namespace portrait {
 
-/// The crossover next to `from` on the way to `to`, both included but for 0; nothing when there is none. `to` may be
-/// inf, and either may be the larger one.
+/// The crossover next to `from` on the way to `to`, both included but for 0; nothing when there is none. `to` may
+/// be inf, and either may be the larger one.
 /// REQUIRES: no phase extreme lies strictly between; 0 <= from, to; from is finite.
 std::optional<double> nearest_phase_crossover(const OpenLoop& loop, double from, double to);
 

@@ -1,6 +1,7 @@
 /// All measures of one loop, by the reference simulation: definitions taken literally, nothing sampled.
 ///
-/// Extremes are sign changes of y' and u'; integrals of the error are taken in error_integrals.h. The error is that of the simulation.
+/// Extremes are sign changes of y' and u'; integrals of the error are taken in error_integrals.h. The error is that
+/// of the simulation.
 #pragma once
 
 #include <optional>

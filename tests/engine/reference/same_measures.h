@@ -1,5 +1,5 @@
-/// Two rows of measures that keep the promise of engine/reference/response.h: integrals of the error to 1e-9, all else
-/// to 1e-7.
+/// Two rows of measures that keep the promise of engine/reference/response.h: integrals of the error to 1e-9,
+/// all else to 1e-7.
 #pragma once
 
 #include <cmath>
