@@ -40,7 +40,8 @@ void run_engine(const Case& of, std::span<const Setting> settings, MeasureColumn
     measure_settings(Method::kernel, of.grid.family, of.grid.horizon, std::nullopt, settings.subspan(first, count),
                      std::span(measured).first(count));
     for (std::size_t i = 0; i < count; ++i) {
-      if (measured[i].method != Method::kernel) throw std::runtime_error(of.name + ": left to the reference method");
+      if (measured[i].method != Method::kernel)
+        throw std::runtime_error(of.name + ": left to the reference method");
       columns.set(first + i, measured[i].status, measured[i].measures);
     }
   }
@@ -49,8 +50,8 @@ void run_engine(const Case& of, std::span<const Setting> settings, MeasureColumn
 void run_responses(const Case& of, std::span<const Setting> settings, std::span<kernel::Measured> measured) {
   for (std::size_t first = 0; first < settings.size(); first += kSlice) {
     const std::size_t count = std::min(kSlice, settings.size() - first);
-    kernel::measure_responses(chosen_implementation(), of.grid.family, settings.subspan(first, count), of.grid.horizon,
-                              measured.subspan(first, count));
+    kernel::measure_responses(chosen_implementation(), of.grid.family, settings.subspan(first, count),
+                              of.grid.horizon, measured.subspan(first, count));
   }
 }
 

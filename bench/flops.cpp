@@ -22,7 +22,8 @@ double flops_a_setting(const Case& of) {
   const long before = counted::operations_so_far();
   for (std::size_t k = 0; k < packs; ++k) {
     const std::size_t first = k * (of.settings.size() / packs);
-    kernel::measure(counting, of.grid.family, of.grid.horizon, std::span(of.settings).subspan(first, lanes), measured);
+    kernel::measure(counting, of.grid.family, of.grid.horizon, std::span(of.settings).subspan(first, lanes),
+                    measured);
   }
   // What is done to a pack is done to each of its settings.
   return static_cast<double>(counted::operations_so_far() - before) / static_cast<double>(packs);

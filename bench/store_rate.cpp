@@ -57,6 +57,7 @@ Grid grid_of(std::uint64_t tiles) {
   return {.title = "store_rate",
           .family = {.plant = Plant::dipdt, .n = 1, .prefilter = Prefilter::full},
           .horizon = Horizon::fixed(51),
+          .sampling = 0.1,
           .precision = Precision::real64,
           .measures = {all.begin(), all.end()},
           .axes = {Axis::list(Parameter::kappa, rows), Axis::list(Parameter::tau_i, columns)},

@@ -36,7 +36,9 @@ void sweep_to_nowhere(const Grid& grid, int threads) {
 void sweep_to_file(const Grid& grid, int threads, const std::filesystem::path& path) {
   PortraitWriter writer(path, grid, {"portrait_bench", method_text(Method::kernel)}, Existing::replace);
   run_sweep(grid, threads, [&](std::uint64_t tile, const MeasureColumns& columns) {
-    return [&writer, encoded = std::make_shared<EncodedTile>(writer.encode(tile, columns))] { writer.write(*encoded); };
+    return [&writer, encoded = std::make_shared<EncodedTile>(writer.encode(tile, columns))] {
+      writer.write(*encoded);
+    };
   });
   writer.publish({0, threads});
 }

@@ -150,7 +150,8 @@ void add_simulate(CLI::App& app, Invocation& invocation) {
   verb->add_option("--c", a->c, "prefilter numerator, coefficient of s^2")->capture_default_str();
   verb->add_option("--horizon", a->horizon, "dead times to simulate, or auto")->capture_default_str();
   verb->add_option("--sampling", a->sampling, "dead times over which measurement noise is held, for noise_gain");
-  verb->add_option("--method", a->method, "kernel, as sweeps use it, or reference, its slow judge")->capture_default_str();
+  verb->add_option("--method", a->method, "kernel, as sweeps use it, or reference, its slow judge")
+      ->capture_default_str();
   verb->add_option("--trace", a->trace, "write t, y and u of both steps to this CSV file");
   verb->add_flag("--json", a->json, "one JSON object instead of tables");
   verb->callback([a, &invocation] { invocation.exit_code = simulate(*a); });

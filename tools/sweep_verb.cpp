@@ -146,8 +146,9 @@ int report(const SweepArguments& a, const SweepOutcome& outcome, const Tally& ta
                             grouped(tally[Status::settled]), grouped(tally[Status::not_settled]),
                             grouped(tally[Status::unstable])));
   if (outcome.settings_by_reference > 0)
-    print_message(fmt::format("{} settings, too stiff for the kernel's panels, were measured by the reference method",
-                              grouped(outcome.settings_by_reference)));
+    print_message(
+        fmt::format("{} settings, too stiff for the kernel's panels, were measured by the reference method",
+                    grouped(outcome.settings_by_reference)));
   print_message(fmt::format("portrait written to {}", a.output));
   return kDone;
 }

@@ -38,7 +38,8 @@ inline SineCosine sine_cosine(Lanes x) {
 /// atan(t), t >= 0: t is turned back by the nearest multiple of pi/16, up to pi/4, and beyond that comes 1/t.
 inline Lanes arc_tangent(Lanes t) {
   constexpr double kTangents[5] = {0, 0.19891236737965800691, 0.41421356237309504880, 0.66817863791929891999, 1};
-  constexpr double kMiddles[4] = {0.09849140335716425, 0.30334668360734239, 0.53451113595079164, 0.82067879082866033};
+  constexpr double kMiddles[4] = {0.09849140335716425, 0.30334668360734239, 0.53451113595079164,
+                                  0.82067879082866033};
   constexpr double kStep = 0.19634954084936207740;
   const Mask steep = t > Lanes(1.0);
   const Lanes flat = select(steep, Lanes(1.0), t) / select(steep, t, Lanes(1.0));

@@ -36,7 +36,7 @@ class Integration {
 template <kernel::PlantKind kind, bool filtered>
 class Chain {
  public:
-  Series v, v1, v2, v3, v4, sum;  ///< v and its derivatives; int v
+  Series v, v1, v2, v3, v4, sum;                      ///< v and its derivatives; int v
   Lanes sum_rest, v_rest, v1_rest, v2_rest, u1_rest;  ///< at least the sums of |c_k|, k >= 1
   ErrorSums of_sum;
 
@@ -57,12 +57,12 @@ class Chain {
       h = filter_.all_but_last(panel.filter, panel.half, h, extra_);
       filter_.eliminate(panel.filter, *h.at[0], v1);
     }
-    if (!filtered && extra_ > 0) copy(v3, *h.at[3]);
+    keep_higher(h);
     pass(panel, h, h1, z);
     if constexpr (filtered) {
       filter_.advance_last(panel.half, v1[0]);
-      if (extra_ > 0) filter_.set_next(v3, *h.at[2], v2);
-      if (extra_ > 1) filter_.set_next(v4, *h.at[3], v3);
+      if (extra_ > 0) filter_.set_next(v3, h2_, v2);
+      if (extra_ > 1) filter_.set_next(v4, h3_, v3);
     }
     if constexpr (kind == kernel::PlantKind::fotd) step_lag(panel, z);
   }
@@ -70,6 +70,13 @@ class Chain {
   Lanes load = 1.0;  ///< d
 
  private:
+  /// The pass writes where h'' and the third derivative are.
+  void keep_higher(const Derivatives& h) {
+    if (!filtered && extra_ > 0) copy(v3, *h.at[3]);
+    if (filtered && extra_ > 0) copy(h2_, *h.at[2]);
+    if (filtered && extra_ > 1) copy(h3_, *h.at[3]);
+  }
+
   /// v, v', v'' of coefficient k.
   struct Filtered {
     Lanes v, v1, v2, slope;
@@ -185,6 +192,7 @@ class Chain {
   }
 
   Filter filter_;
+  Series h2_, h3_;
   int order_ = 0, extra_ = 0;
   Lanes tau_f_, tau_1_, plant_rate_;
   Lanes kappa_, integral_gain_, delta_;  ///< times -1

@@ -31,7 +31,9 @@ class Filter {
   /// The last lag in two steps, for the second can be part of a longer pass: forward elimination, then coefficient k of v'
   /// from the one above.
   void eliminate(const Lag& lag, const Series& h, Series& g) const { lag.eliminate(g, h, state_[order_ - 1]); }
-  static Lanes substitute(const Lag& lag, const Series& g, int k, Lanes above) { return lag.substitute(g, k, above); }
+  static Lanes substitute(const Lag& lag, const Series& g, int k, Lanes above) {
+    return lag.substitute(g, k, above);
+  }
   void advance_last(double half_length, Lanes mean_slope) { advance(order_ - 1, half_length, mean_slope); }
 
   Lanes next(Lanes h, Lanes v) const { return rate_ * (h - v); }

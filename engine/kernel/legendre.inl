@@ -258,7 +258,9 @@ struct Lag {
   }
 
   /// Coefficient k of v' after elimination, from the one above, 0 above the last.
-  Lanes substitute(const Series& g, int k, Lanes above) const { return mul_add(upper[k], above, g[k] * inverse[k]); }
+  Lanes substitute(const Series& g, int k, Lanes above) const {
+    return mul_add(upper[k], above, g[k] * inverse[k]);
+  }
 
   /// w = v' for the input e from v(start). w may be e.
   void set_slope(Series& w, const Series& e, Lanes start) const {

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "engine/base/check.h"
-#include "engine/loop/margins.h"
-#include "engine/loop/sensitivity.h"
+#include "engine/loop/loop_measures.h"
 #include "engine/loop/stability.h"
 
 namespace portrait::kernel {
@@ -142,14 +141,15 @@ class Search {
   }
 
   LoopMargins one_by_one(std::size_t i) const {
-    const OpenLoop loop = open_loop({family_, settings_[i]});
+    const Loop loop{family_, settings_[i]};
     LoopMargins m;
-    m.stable = is_stable(loop);
+    m.stable = is_stable(open_loop(loop));
     if (!m.stable) return m;
-    const Peak S = sensitivity_peak(loop), T = complementary_sensitivity_peak(loop);
-    const Margins exact = margins(loop);
-    m.Ms = S.value, m.Ms_omega = S.omega, m.Mt = T.value, m.Mt_omega = T.omega;
-    m.GM = exact.gain, m.GM_low = exact.gain_low, m.PM = exact.phase_deg, m.DM = exact.delay;
+    MeasureRow row;
+    measure_loop(loop, std::nullopt, row);
+    m.Ms = row[Measure::Ms], m.Ms_omega = row[Measure::Ms_omega];
+    m.Mt = row[Measure::Mt], m.Mt_omega = row[Measure::Mt_omega];
+    m.GM = row[Measure::GM], m.GM_low = row[Measure::GM_low], m.PM = row[Measure::PM], m.DM = row[Measure::DM];
     return m;
   }
 

@@ -30,9 +30,14 @@ inline constexpr double kPi = 3.14159265358979323846;
 class OpenLoopLanes {
  public:
   explicit OpenLoopLanes(const kernel::MarginPack& pack)
-      : n0_(Lanes::from(pack.n0)), n1_(Lanes::from(pack.n1)), n2_(Lanes::from(pack.n2)),
-        tau_1_(Lanes::from(pack.tau_1)), tau_f_(Lanes::from(pack.tau_f)), integrators_(pack.integrators),
-        plant_lags_(pack.plant_lags), filters_(pack.n) {}
+      : n0_(Lanes::from(pack.n0)),
+        n1_(Lanes::from(pack.n1)),
+        n2_(Lanes::from(pack.n2)),
+        tau_1_(Lanes::from(pack.tau_1)),
+        tau_f_(Lanes::from(pack.tau_f)),
+        integrators_(pack.integrators),
+        plant_lags_(pack.plant_lags),
+        filters_(pack.n) {}
 
   /// L, its logarithm's derivative s = L'/L, and s'.
   struct At {
@@ -87,7 +92,8 @@ class OpenLoopLanes {
     const Complex N = numerator(omega);
     Lanes phase = upper_angle(N.re, N.im) - omega - Lanes(integrators_ * (kPi / 2));
     if (plant_lags_ > 0) phase = phase - arc_tangent(tau_1_ * omega);
-    if (filters_ > 0) phase = mul_sub_from(Lanes(static_cast<double>(filters_)), arc_tangent(tau_f_ * omega), phase);
+    if (filters_ > 0)
+      phase = mul_sub_from(Lanes(static_cast<double>(filters_)), arc_tangent(tau_f_ * omega), phase);
     return phase;
   }
 

@@ -9,10 +9,10 @@
 namespace portrait::PORTRAIT_ISA_NAME {
 
 struct Output {
-  Series y, y1, y2, y3;  ///< y and derivatives: three of dipdt, two of the others
-  Series u, u1;          ///< of fotd; the others have u + d and u' among the derivatives of y
+  Series y, y1, y2, y3;    ///< y and derivatives: three of dipdt, two of the others
+  Series u, u1;            ///< of fotd; the others have u + d and u' among the derivatives of y
   Lanes rest, slope_rest;  ///< at least the sums of |c_k|, k >= 1, of y and y1
-  ErrorSums sums;        ///< of y
+  ErrorSums sums;          ///< of y
 
   void begin() {
     set_zero(y), set_zero(y1), set_zero(y2), set_zero(y3);

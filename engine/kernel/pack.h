@@ -74,8 +74,9 @@ struct MarginResult {
   PackColumn phase;  ///< arg L at the gain crossover, rad; the loop is stable when it is above -pi
   PackColumn crossover;
   PackColumn Ms, Ms_omega, Mt, Mt_omega;
-  PackColumn gain_above, gain_below;  ///< |L| where arg L = -pi: the largest below 1, the smallest above; 0 and inf: none
-  PackColumn done;                    ///< 0 where the search was given up
+  PackColumn gain_above,
+      gain_below;   ///< |L| where arg L = -pi: the largest below 1, the smallest above; 0 and inf: none
+  PackColumn done;  ///< 0 where the search was given up
 };
 
 /// What one instruction set offers.

@@ -36,7 +36,7 @@ int layered_intervals(const Loop& loop, double T) {
 }
 
 /// The first panel of a graded dead time is at most 4 T long.
-int grading_for(double T) { return std::clamp(static_cast<int>(std::ceil(-std::log2(4 * T))), 0, 20); }
+int grading_for(double T) { return static_cast<int>(std::clamp(std::ceil(-std::log2(4 * T)), 0.0, 20.0)); }
 
 }  // namespace
 

@@ -73,16 +73,18 @@ double fastest(const LoopFamily& family, const Setting& s, SetpointRun run) {
 /// Settings that may lie side by side in a pack.
 struct Kind {
   SetpointRun run;
+  bool one_term;  ///< y_w is g0 int v alone, which the kernel treats apart
   Resolution resolution;
 
   auto key() const {
-    return std::tuple(run, resolution.mesh.graded, resolution.mesh.halved, resolution.layered_intervals);
+    return std::tuple(run, one_term, resolution.mesh.graded, resolution.mesh.halved, resolution.layered_intervals);
   }
 };
 
 Kind kind_of(const LoopFamily& family, const Setting& s) {
   const SetpointRun run = setpoint_run(family, s);
-  return {run, first_resolution({family, s}, fastest(family, s, run))};
+  const Gains g = setpoint_gains(family, s);
+  return {run, g.g1 == 0 && g.g2 == 0, first_resolution({family, s}, fastest(family, s, run))};
 }
 
 void fill_lane(Pack& pack, std::size_t lane, const Loop& loop) {
@@ -148,7 +150,11 @@ class Measurement {
  public:
   Measurement(const Implementation& implementation, const LoopFamily& family, std::span<const Setting> settings,
               Horizon horizon, std::span<Measured> results)
-      : implementation_(implementation), family_(family), settings_(settings), horizon_(horizon), results_(results) {
+      : implementation_(implementation),
+        family_(family),
+        settings_(settings),
+        horizon_(horizon),
+        results_(results) {
     for (std::size_t i = 0; i < settings.size(); ++i) tasks_.push_back({i, kind_of(family, settings[i])});
   }
 
@@ -159,8 +165,8 @@ class Measurement {
                        [](const Task& a, const Task& b) { return a.kind.key() < b.kind.key(); });
       const std::vector<Task> tasks = std::exchange(tasks_, {});
       for (auto first = tasks.begin(); first != tasks.end();) {
-        const auto last = std::find_if(first, tasks.end(),
-                                       [&](const Task& t) { return t.kind.key() != first->kind.key(); });
+        const auto last =
+            std::find_if(first, tasks.end(), [&](const Task& t) { return t.kind.key() != first->kind.key(); });
         run_alike({first, last});
         first = last;
       }
@@ -188,7 +194,8 @@ class Measurement {
   }
 
   void try_finer(const Task& task) {
-    if (const auto next = finer(task.kind.resolution)) tasks_.push_back({task.setting, {task.kind.run, *next}});
+    if (const auto next = finer(task.kind.resolution))
+      tasks_.push_back({task.setting, {task.kind.run, task.kind.one_term, *next}});
   }
 
   const Implementation& implementation_;

@@ -132,7 +132,8 @@ class Run {
     const Panel& panel = panels_[p];
     Place at{k + panel.start + panel.half, panel.half, 1, false, false, false, false, false, false};
     const bool last_interval = k == span_.intervals - 1, cut = last_interval && span_.fraction > 0;
-    if (cut && panel.start + 2 * panel.half > span_.fraction) at.end = (span_.fraction - panel.start) / panel.half - 1;
+    if (cut && panel.start + 2 * panel.half > span_.fraction)
+      at.end = (span_.fraction - panel.start) / panel.half - 1;
     at.first_of_interval = p == 0;
     at.first_of_all = p == 0 && k == 0;
     at.last_of_interval = p == panel_count_ - 1;
@@ -147,11 +148,14 @@ class Run {
     const bool for_y = reaches(k, p), for_u = reaches(k - 1, p);
     if (derived_.is_scaled() && plant != PlantKind::fotd) {
       const Lanes g0 = derived_.scale();
-      if (for_y) watch_derived_output({chain_.sum, chain_.v, g0, chain_.v_rest}, chain_.sum_rest, chain_.of_sum,
+      if (for_y)
+        watch_derived_output({chain_.sum, chain_.v, g0, chain_.v_rest}, chain_.sum_rest, chain_.of_sum,
                              place(k, p, look));
       const Series& u = kRelativeDegree == 2 ? chain_.v1 : chain_.v;
       const Series& u1 = kRelativeDegree == 2 ? chain_.v2 : chain_.v1;
-      if (for_u) watch_derived_input({u, u1, g0, kRelativeDegree == 2 ? chain_.v2_rest : chain_.v1_rest}, place(k - 1, p, look));
+      if (for_u)
+        watch_derived_input({u, u1, g0, kRelativeDegree == 2 ? chain_.v2_rest : chain_.v1_rest},
+                            place(k - 1, p, look));
       return;
     }
     Series &f = scratch_[0], &slope = scratch_[1];

@@ -65,7 +65,8 @@ inline void watch_cut(ShapeMeter& meter, const Signal& s, const Place& at, Mask 
 }
 
 /// One panel of a signal; lanes that are not at rest leave `quiet` when asked.
-inline void watch_signal(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump, Mask active, Mask& quiet) {
+inline void watch_signal(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump, Mask active,
+                         Mask& quiet) {
   if (at.late && !meter.is_late) meter.begin_late();
   if (at.is_cut()) {
     watch_cut(meter, s, at, active);
@@ -85,7 +86,8 @@ inline void watch_error(ErrorMeter& meter, const Error& e, const Place& at, Mask
   Series cut;
   set_cut_off(cut, e.f, at.end);
   const double half = 0.5 * at.half * (at.end + 1);
-  meter.watch({cut, e.offset, e.scale, rest_bound(cut, 1), error_sums_of(cut)}, at.middle - at.half + half, half, active);
+  meter.watch({cut, e.offset, e.scale, rest_bound(cut, 1), error_sums_of(cut)}, at.middle - at.half + half, half,
+              active);
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

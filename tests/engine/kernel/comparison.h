@@ -22,7 +22,7 @@ inline std::vector<Measure> response_measures() {
 }
 
 inline kernel::Measured measure_one(const kernel::Implementation& implementation, const Loop& loop,
-                                        Horizon horizon) {
+                                    Horizon horizon) {
   kernel::Measured result;
   kernel::measure_responses(implementation, loop.family, {&loop.setting, 1}, horizon, {&result, 1});
   return result;
