@@ -7,6 +7,7 @@
 #include "engine/base/check.h"
 #include "engine/isa/dispatch.h"
 #include "engine/sweep/method.h"
+#include "engine/sweep/tile_queue.h"
 
 namespace portrait::bench {
 
@@ -23,7 +24,7 @@ extern const Baseline kBaseline;
 namespace {
 
 /// What a worker of a sweep measures at a time.
-constexpr std::size_t kSlice = 128;
+constexpr std::size_t kSlice = TileQueue::kSliceSettings;
 
 const Baseline& baseline_named(std::string_view name) {
   for (const Baseline* baseline : {&base::kBaseline, &avx2::kBaseline, &avx512::kBaseline})

@@ -63,7 +63,7 @@ SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads) {
 /// Seconds a setting takes on one thread: settings spread evenly over the grid, for about half a second.
 double seconds_a_setting(const Grid& grid) {
   using Clock = std::chrono::steady_clock;
-  constexpr std::size_t kAtATime = 128;  // as a sweep does
+  constexpr std::size_t kAtATime = TileQueue::kSliceSettings;  // as a sweep does
   const std::uint64_t count = setting_count(grid), samples = std::min<std::uint64_t>(count, 4096);
   const auto begin = Clock::now();
   std::uint64_t done = 0;

@@ -45,6 +45,7 @@ class TileQueue {
   using SettingsOf = std::function<std::vector<Setting>(std::uint64_t tile)>;
   using Prepare = std::function<StoreStep(std::uint64_t tile, const MeasureColumns& columns)>;
   static constexpr std::uint64_t kTilesInMemory = 64;
+  static constexpr std::size_t kSliceSettings = 128;
 
   TileQueue(std::vector<Measure> measures, std::uint64_t tile_count, SettingsOf settings_of, Prepare prepare)
       : measures_(std::move(measures)),
@@ -69,8 +70,6 @@ class TileQueue {
  private:
   void begin_tile();
   void store_in_order(std::unique_lock<std::mutex>& lock);
-
-  static constexpr std::size_t kSliceSettings = 128;
 
   const std::vector<Measure> measures_;
   const std::uint64_t tile_count_;

@@ -96,8 +96,10 @@ TEST(SweepThreads, AFailingSettingIsNamedWhateverThreadMeetsIt) {
     std::vector<Setting> settings = small_grid();
     settings[31].b = kNaN;  // PD, stable
     Collected collected(every_measure());
+    SweepJob job = job_over(settings, 3, threads, collected);
+    job.method = Method::reference;
     try {
-      sweep(job_over(settings, 3, threads, collected));
+      sweep(job);
       FAIL() << "nothing was thrown";
     } catch (const std::runtime_error& failure) {
       EXPECT_NE(std::string(failure.what()).find("\nreproduce: portrait simulate --plant dipdt"),
