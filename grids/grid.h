@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Grid {
   std::string title;
   LoopFamily family;
   Horizon horizon;
+  std::optional<double> sampling;  ///< dead times over which noise is held: there when noise_gain is kept
   Precision precision = Precision::real64;
   std::vector<Measure> measures;      ///< kept ones, in catalogue order
   std::vector<Axis> axes;             ///< in the order of the grid file; a single setting has none

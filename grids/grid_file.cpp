@@ -84,13 +84,32 @@ Words measure_names() {
   return names;
 }
 
-std::vector<Measure> measures_in(const Value::Table& root) {
-  constexpr auto kAll = all_measures();
+std::optional<double> sampling_in(const Value::Table& root) {
+  const Entry* entry = find(root, "sampling");
+  if (!entry) return std::nullopt;
+  const double dead_times = number_in("sampling", entry->value);
+  if (dead_times > 0 && dead_times <= kHorizonCap) return dead_times;
+  throw InputError(entry->value.place, fmt::format("\"sampling\" must be above 0 and at most {} (it is {})",
+                                                   kHorizonCap, number_text(dead_times)));
+}
+
+std::vector<Measure> usual_measures(bool with_noise) {
+  std::vector<Measure> usual;
+  for (const Measure measure : all_measures())
+    if (with_noise || measure != Measure::noise_gain) usual.push_back(measure);
+  return usual;
+}
+
+std::vector<Measure> measures_in(const Value::Table& root, bool with_noise) {
   const Entry* entry = find(root, "measures");
-  if (!entry) return {kAll.begin(), kAll.end()};
+  if (!entry) return usual_measures(with_noise);
   std::vector<Measure> kept;
   for (const Value& item : list_in("measures", entry->value)) {
     kept.push_back(thing_in("measure", item, measure_named, measure_names()));
+    if (kept.back() == Measure::noise_gain && !with_noise)
+      throw InputError(item.place,
+                       "measure \"noise_gain\" needs the key \"sampling\": over how many dead times noise "
+                       "is held, as in sampling = 0.1");
     if (std::count(kept.begin(), kept.end(), kept.back()) > 1)
       throw InputError(item.place, fmt::format("measure \"{}\" stands twice in the list", to_string(kept.back())));
   }
@@ -125,13 +144,15 @@ std::string read_text(const std::filesystem::path& path) {
 Grid parse_grid(std::string text, std::string source_name) {
   const Value root = parse_toml(text, source_name);
   const auto& table = std::get<Value::Table>(root.content);
-  allow_only(table, {"title", "plant", "n", "prefilter", "horizon", "precision", "measures", "parameters"});
+  allow_only(table,
+             {"title", "plant", "n", "prefilter", "horizon", "sampling", "precision", "measures", "parameters"});
   Grid grid;
   grid.title = title_in(table);
   grid.family = family_in(root);
   grid.horizon = horizon_in(root);
   grid.precision = precision_in(table);
-  grid.measures = measures_in(table);
+  grid.sampling = sampling_in(table);
+  grid.measures = measures_in(table, grid.sampling.has_value());
   read_parameters(need(root, "parameters", "the table of fixed values and axes").value, grid);
   grid.text = std::move(text);
   return grid;

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 #include <xxhash.h>
+#if defined(__x86_64__) && __has_include(<xxh_x86dispatch.h>)
+#include <xxh_x86dispatch.h>  // the same digests by the widest vectors the machine has
+#endif
 
 namespace portrait {
 

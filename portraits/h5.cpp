@@ -1,11 +1,14 @@
 #include "portraits/h5.h"
 
 #include <bit>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include <H5Cpp.h>
 #include <fmt/format.h>
 #include <hdf5_hl.h>
+#include <unistd.h>
 
 #include "portraits/h5_call.h"
 #include "portraits/h5_driver.h"
@@ -35,6 +38,7 @@ H5::FileAccPropList reading() {
   H5::FileAccPropList list;
   list.setFcloseDegree(H5F_CLOSE_STRONG);
   called(H5Pset_file_locking(list.getId(), false, true));
+  locate_reads(list);
   return list;
 }
 
@@ -46,34 +50,42 @@ Dataset::Dataset(std::shared_ptr<H5::DataSet> dataset, Layout layout, std::share
       dataset_(std::move(dataset)),
       layout_(std::move(layout)) {}
 
-void Dataset::write(const std::vector<std::uint64_t>& start, const std::vector<std::uint64_t>& extent,
-                    const void* from) const {
+void Dataset::write_chunk(const std::vector<std::uint64_t>& start, ChunkForm form,
+                          std::span<const std::byte> stored) const {
+  const std::vector<hsize_t> first(start.begin(), start.end());
   guarded(origin(), "write " + name(), [&] {
-    dataset_->write(from, type_of(layout_.element), space_of(extent), box_in(*dataset_, start, extent));
+    called(H5Dwrite_chunk(dataset_->getId(), H5P_DEFAULT, static_cast<std::uint32_t>(form), first.data(),
+                          stored.size(), stored.data()));
   });
 }
 
-// The length of a chunk and the filters it went through stand in an index that HDF5 does not checksum. A
-// wrong length would become a wrong allocation, a skipped filter a read beyond the end of the decoded chunk.
-void Dataset::check_chunk(const std::vector<std::uint64_t>& start) const {
+// The length of a chunk and the filters it went through stand in an index that HDF5 does not checksum.
+Dataset::ChunkPlace Dataset::place_of_chunk(const std::vector<std::uint64_t>& start) const {
   const std::vector<hsize_t> first(start.begin(), start.end());
   const std::uint64_t plain = Layout{layout_.element, layout_.chunk, {}}.bytes();
-  hsize_t stored = 0;
-  called(H5Dget_chunk_storage_size(dataset_->getId(), first.data(), &stored));
-  if (stored == 0) fail(origin(), fmt::format("{} has no chunk at {}", name(), fmt::join(start, ",")));
-  if (stored > plain + plain / 512 + 64) fail(origin(), name() + " has a chunk of impossible length");
-  std::vector<char> bytes(stored);
-  std::uint32_t skipped = 0;
-  called(H5Dread_chunk(dataset_->getId(), H5P_DEFAULT, first.data(), &skipped, bytes.data()));
-  if (skipped != 0) fail(origin(), name() + " has a chunk with filters left out");
+  return guarded(origin(), "read " + name(), [&] {
+    const ReadLocator place;
+    std::uint32_t left_out = 0;
+    std::byte nothing{};
+    called(H5Dread_chunk(dataset_->getId(), H5P_DEFAULT, first.data(), &left_out, &nothing));
+    if (place.length() == 0) fail(origin(), fmt::format("{} has no chunk at {}", name(), fmt::join(start, ",")));
+    if (place.length() > plain + plain / 512 + 64) fail(origin(), name() + " has a chunk of impossible length");
+    const auto form = static_cast<ChunkForm>(left_out);
+    if (form != ChunkForm::deflated && form != ChunkForm::plain)
+      fail(origin(), name() + " has a chunk with other filters left out than may be");
+    return ChunkPlace{place.address(), place.length(), form};
+  });
 }
 
-void Dataset::read(const std::vector<std::uint64_t>& start, const std::vector<std::uint64_t>& extent,
-                   void* into) const {
-  guarded(origin(), "read " + name(), [&] {
-    if (!layout_.chunk.empty()) check_chunk(start);
-    dataset_->read(into, type_of(layout_.element), space_of(extent), box_in(*dataset_, start, extent));
-  });
+ChunkForm Dataset::read_chunk(const std::vector<std::uint64_t>& start, std::vector<std::byte>& stored) const {
+  const ChunkPlace place = place_of_chunk(start);
+  const auto beyond_end = [&] { fail(origin(), name() + " has a chunk beyond the end of the file"); };
+  if (place.address > origin().bytes || place.length > origin().bytes - place.address) beyond_end();
+  stored.resize(place.length);
+  const ssize_t got = pread(origin().descriptor, stored.data(), stored.size(), static_cast<off_t>(place.address));
+  if (got < 0) fail(origin(), fmt::format("cannot read {}: {}", name(), std::strerror(errno)), true);
+  if (static_cast<std::size_t>(got) != stored.size()) beyond_end();
+  return place.form;
 }
 
 void Dataset::write_all(const void* from) const {
@@ -103,7 +115,7 @@ File::File(std::shared_ptr<H5::H5File> file, std::shared_ptr<const Origin> origi
     : Object(file, std::move(origin), ""), file_(std::move(file)) {}
 
 File File::create(const std::filesystem::path& path) {
-  const auto origin = std::make_shared<Origin>(Origin{path.string(), true, 0, nullptr});
+  const auto origin = std::make_shared<Origin>(Origin{path.string(), true, 0, -1, nullptr});
   return guarded(*origin, "create the file", [&] {
     auto file = std::make_shared<H5::H5File>(path.string(), H5F_ACC_EXCL, file_creation(), writing());
     origin->fault = fault_of(*file);
@@ -113,10 +125,12 @@ File File::create(const std::filesystem::path& path) {
 
 File File::open(const std::filesystem::path& path) {
   const auto origin =
-      std::make_shared<Origin>(Origin{path.string(), false, std::filesystem::file_size(path), nullptr});
+      std::make_shared<Origin>(Origin{path.string(), false, std::filesystem::file_size(path), -1, nullptr});
   return guarded(*origin, "open the file", [&] {
     const auto& defaults = H5::FileCreatPropList::DEFAULT;
-    return File(std::make_shared<H5::H5File>(path.string(), H5F_ACC_RDONLY, defaults, reading()), origin);
+    auto file = std::make_shared<H5::H5File>(path.string(), H5F_ACC_RDONLY, defaults, reading());
+    origin->descriptor = descriptor_of(*file);
+    return File(std::move(file), origin);
   });
 }
 

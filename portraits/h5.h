@@ -5,18 +5,23 @@
 /// nothing.
 ///
 /// Reading trusts nothing the file says: sizes are held against the size of the file before memory is asked
-/// for, and a chunk's length and filters are checked before HDF5 decodes it, which HDF5 1.10 does not do.
+/// for, and a chunk's length and filters are checked; HDF5 1.10 does not do it. Chunks are encoded and decoded
+/// outside (portraits/chunk_codec.h): HDF5 only finds their place.
 ///
 /// The parts behind this door: h5_call (errors), h5_driver (writing), h5_layout (types and shapes), h5_attributes.
 ///
-/// REQUIRES: a File and its datasets are used by one thread at a time.
+/// HDF5 is entered by one thread at a time: the door has a lock. Reading chunks is for any number of threads at
+/// once; everything else REQUIRES: a File and its datasets are used by one thread at a time.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "portraits/chunk_codec.h"
 
 namespace H5 {
 class H5Object;
@@ -32,8 +37,8 @@ struct WriteFault;
 enum class Element { real64, real32, uint8, uint64 };
 std::size_t size_of(Element element);
 
-/// Type and shape of a dataset. With chunks: shuffled, deflated and checksummed; without: contiguous and
-/// plain.
+/// Type and shape of a dataset. With chunks: shuffled, deflated and checksummed, the first two unless a chunk
+/// leaves them out; without: contiguous and plain.
 struct Layout {
   Element element = Element::real64;
   std::vector<std::uint64_t> extent;  ///< along each axis; none: one number
@@ -48,6 +53,7 @@ struct Origin {
   std::string file;
   bool writing = false;
   std::uint64_t bytes = 0;            ///< size of a file being read: nothing in it can be larger
+  int descriptor = -1;                ///< of a file being read
   std::shared_ptr<WriteFault> fault;  ///< of a file being written
 };
 
@@ -82,11 +88,12 @@ class Dataset : public Object {
  public:
   const Layout& layout() const { return layout_; }
 
-  /// Values of a box in row-major order. REQUIRES: on a chunked dataset the box is one chunk, cut at the far
-  /// edges; the box lies in the dataset.
-  void write(const std::vector<std::uint64_t>& start, const std::vector<std::uint64_t>& extent,
-             const void* from) const;
-  void read(const std::vector<std::uint64_t>& start, const std::vector<std::uint64_t>& extent, void* into) const;
+  /// A chunk as it lies in the file, filters applied; one at the far edge is whole. HDF5 passes the bytes on as
+  /// they are.
+  /// REQUIRES: a chunked dataset, and the start of a chunk in it.
+  void write_chunk(const std::vector<std::uint64_t>& start, ChunkForm form,
+                   std::span<const std::byte> stored) const;
+  ChunkForm read_chunk(const std::vector<std::uint64_t>& start, std::vector<std::byte>& stored) const;
   /// All values of a contiguous dataset. REQUIRES: room for layout().count() values, which a reader has
   /// checked.
   void write_all(const void* from) const;
@@ -100,7 +107,11 @@ class Dataset : public Object {
   friend class File;
   Dataset(std::shared_ptr<H5::DataSet> dataset, Layout layout, std::shared_ptr<const Origin> origin,
           std::string name);
-  void check_chunk(const std::vector<std::uint64_t>& start) const;
+  struct ChunkPlace {
+    std::uint64_t address = 0, length = 0;
+    ChunkForm form = ChunkForm::plain;
+  };
+  ChunkPlace place_of_chunk(const std::vector<std::uint64_t>& start) const;
   std::shared_ptr<H5::DataSet> dataset_;
   Layout layout_;
 };

@@ -31,6 +31,11 @@ std::string words_on(hid_t stack) {
   return words.substr(first, words.find('\'', first) - first);
 }
 
+std::mutex& door() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 Listener::Listener() { H5Eset_auto2(H5E_DEFAULT, hear, this); }
 
 Listener::~Listener() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }

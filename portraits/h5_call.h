@@ -1,6 +1,7 @@
 /// Calling HDF5: what it says when it fails, and how that becomes one of our errors.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <type_traits>
 
@@ -24,8 +25,8 @@ Result called(Result result) {
 std::string words_on(hid_t stack);
 bool told_by_system(hid_t stack);
 
-/// Hears HDF5's error stack at the call that failed, before closing other objects clears it. HDF5 prints nothing while
-/// one listens, and nothing afterwards.
+/// Hears HDF5's error stack at the call that failed, before closing other objects clears it. HDF5 prints nothing
+/// while one listens, and nothing afterwards.
 class Listener {
  public:
   Listener();
@@ -49,9 +50,14 @@ class Listener {
 /// Throws StoreError when a write of this file failed, now or before.
 void check_writes(const Origin& origin, const std::string& doing);
 
+/// Held by whoever is inside HDF5.
+std::mutex& door();
+
 /// Runs work that calls HDF5; its failure becomes "FILE: cannot DO: HDF5: the library's words".
+/// One thread at a time: HDF5 need not have been built for more.
 template <typename Work>
 auto guarded(const Origin& origin, const std::string& doing, Work work) {
+  const std::lock_guard one_at_a_time(door());
   Listener listener;
   const auto failed = [&](const std::string& words) {
     check_writes(origin, doing);

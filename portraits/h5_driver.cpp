@@ -3,6 +3,8 @@
 #include <map>
 #include <mutex>
 
+#include <fcntl.h>
+
 #include "portraits/h5_call.h"
 
 namespace portrait::h5 {
@@ -59,9 +61,22 @@ herr_t remembered(WriteFault& fault, herr_t result) {
   return 0;
 }
 
+/// Only a hint, so what it says is of no interest: what it cannot start, the sync at the end does, and tells of.
+void set_off(WriteFault& fault, std::size_t written, int descriptor) {
+  constexpr std::uint64_t kEnough = 16 << 20;
+  fault.waiting += written;
+  if (fault.waiting < kEnough) return;
+  fault.waiting = 0;
+  static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
+}
+
 herr_t write(H5FD_t* file, H5FD_mem_t type, hid_t list, haddr_t at, std::size_t size, const void* from) {
-  const std::shared_ptr<WriteFault> fault = faults().at(key_of(file));
-  return fault->dropping ? 0 : remembered(*fault, plain_driver().write(file, type, list, at, size, from));
+  const void* key = key_of(file);
+  const std::shared_ptr<WriteFault> fault = faults().at(key);
+  if (fault->dropping) return 0;
+  const herr_t result = remembered(*fault, plain_driver().write(file, type, list, at, size, from));
+  set_off(*fault, size, *static_cast<const int*>(key));
+  return result;
 }
 
 herr_t truncate(H5FD_t* file, hid_t list, hbool_t closing) {
@@ -74,6 +89,22 @@ herr_t close(H5FD_t* file) {
   const std::shared_ptr<WriteFault> fault = faults().at(key);
   faults().forget(key);
   return remembered(*fault, plain_driver().close(file));
+}
+
+thread_local ReadLocator* locator = nullptr;
+
+herr_t read(H5FD_t* file, H5FD_mem_t type, hid_t list, haddr_t at, std::size_t size, void* into) {
+  if (type != H5FD_MEM_DRAW || locator == nullptr) return plain_driver().read(file, type, list, at, size, into);
+  locator->note(at, size);
+  return 0;
+}
+
+hid_t registered_to_read() {
+  H5FD_class_t driver = plain_driver();
+  driver.name = "portrait_reading";
+  driver.terminate = nullptr;
+  driver.read = read;
+  return called(H5FDregister(&driver));
 }
 
 hid_t registered() {
@@ -92,6 +123,15 @@ void remember_failed_writes(const H5::FileAccPropList& list) {
   static const hid_t driver = registered();
   called(H5Pset_driver(list.getId(), driver, nullptr));
 }
+
+void locate_reads(const H5::FileAccPropList& list) {
+  static const hid_t driver = registered_to_read();
+  called(H5Pset_driver(list.getId(), driver, nullptr));
+}
+
+ReadLocator::ReadLocator() { locator = this; }
+
+ReadLocator::~ReadLocator() { locator = nullptr; }
 
 int& descriptor_of(const H5::H5File& file) {
   void* descriptor = nullptr;

@@ -1,10 +1,15 @@
-/// HDF5's own way to the disk, with one difference: a write that fails is remembered, not reported to HDF5.
+/// HDF5's own way to the disk, with these differences.
 ///
-/// HDF5 1.10 does not survive a failed write. A failed flush leaves a file that can never be closed, a failed close one
-/// that is freed again at exit; either ends the process. So HDF5 is told that all is well, writes nothing more, and
-/// whoever called it asks afterwards. Reading is not touched.
+/// Writing: a write that fails is remembered, not reported to HDF5. HDF5 1.10 does not survive a failed write. A
+/// failed flush leaves a file that can never be closed, a failed close one that is freed again at exit; either ends
+/// the process. So HDF5 is told that all is well, writes nothing more, and whoever called it asks afterwards. What
+/// was written sets off for the disk early, so that little is left to wait for when the file is synced.
+///
+/// Reading: HDF5 can be asked where a chunk lies without reading it. It has no such question that is fast, and
+/// would read as many bytes as an index without a checksum says, whatever room there is.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -13,12 +18,31 @@
 namespace portrait::h5 {
 
 struct WriteFault {
-  bool dropping = false;  ///< from now on every write is left undone
-  std::string words;      ///< the system's own, of the first write that failed; empty: none did
+  bool dropping = false;      ///< from now on every write is left undone
+  std::string words;          ///< the system's own, of the first write that failed; empty: none did
+  std::uint64_t waiting = 0;  ///< bytes written since the last that set off for the disk
 };
 
 /// Files created with this list are written so.
 void remember_failed_writes(const H5::FileAccPropList& list);
+/// Files opened with this list can be asked so.
+void locate_reads(const H5::FileAccPropList& list);
+
+/// While one lives, what this thread lets HDF5 read of raw values is noted and not read.
+class ReadLocator {
+ public:
+  ReadLocator();
+  ~ReadLocator();
+  ReadLocator(const ReadLocator&) = delete;
+  ReadLocator& operator=(const ReadLocator&) = delete;
+
+  void note(std::uint64_t address, std::uint64_t length) { address_ = address, length_ = length; }
+  std::uint64_t address() const { return address_; }
+  std::uint64_t length() const { return length_; }  ///< 0: nothing was to be read
+
+ private:
+  std::uint64_t address_ = 0, length_ = 0;
+};
 
 /// The fault of such a file, for as long as anyone holds it.
 std::shared_ptr<WriteFault> fault_of(const H5::H5File& file);

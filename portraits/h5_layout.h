@@ -17,9 +17,6 @@ std::optional<Element> element_of(const H5::DataSet& dataset);
 
 /// No extent: a single value.
 H5::DataSpace space_of(const std::vector<std::uint64_t>& extent);
-/// A box of a dataset; all of one that has no axes.
-H5::DataSpace box_in(const H5::DataSet& dataset, const std::vector<std::uint64_t>& start,
-                     const std::vector<std::uint64_t>& extent);
 /// Fixed length, UTF-8.
 H5::StrType text_type(std::size_t length);
 

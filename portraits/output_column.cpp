@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/error.h"
 #include "engine/base/status.h"
-#include "portraits/digest.h"
 #include "portraits/plain_dataset.h"
 #include "portraits/schema.h"
 #include "portraits/stored_grid.h"
@@ -31,9 +29,6 @@ h5::Dataset create_column(const h5::File& file, const Grid& grid, const std::str
 
 }  // namespace
 
-OutputColumn::OutputColumn(h5::Dataset dataset, const Grid& grid)
-    : dataset_(std::move(dataset)), rows_(grid), digests_(rows_.tile_count()) {}
-
 OutputColumn OutputColumn::of_measure(const h5::File& file, const Grid& grid, Measure measure) {
   const MeasureInfo& about = info(measure);
   const h5::Element element = schema::element_of(grid.precision);
@@ -44,7 +39,7 @@ OutputColumn OutputColumn::of_measure(const h5::File& file, const Grid& grid, Me
   dataset.set_text("step", std::string(1, about.step));
   dataset.set_real("_FillValue", std::numeric_limits<double>::quiet_NaN(), element);
   name_fixed_coordinates(dataset, grid);
-  return {dataset, grid};
+  return OutputColumn(dataset);
 }
 
 // No attribute _FillValue: 0 has a meaning here, and readers would turn the column into reals to mask it.
@@ -56,32 +51,20 @@ OutputColumn OutputColumn::of_status(const h5::File& file, const Grid& grid) {
   dataset.set_bytes("flag_values", values);
   dataset.set_text("flag_meanings", schema::names_text({kStatusNames.begin(), kStatusNames.end()}));
   name_fixed_coordinates(dataset, grid);
-  return {dataset, grid};
+  return OutputColumn(dataset);
 }
 
-void OutputColumn::write(std::uint64_t tile, std::span<const std::byte> bytes) {
-  const Box box = rows_.box(tile);
-  dataset_.write(box.start, box.extent, bytes.data());
-  digests_[tile] = digest_of(bytes);
-}
-
-std::uint64_t OutputColumn::read_back() const {
-  Digest whole;
-  std::vector<std::byte> bytes;
-  for (std::uint64_t tile = 0; tile < digests_.size(); ++tile) {
-    const Box box = rows_.box(tile);
-    bytes.resize(box.size() * h5::size_of(dataset_.layout().element));
-    dataset_.read(box.start, box.extent, bytes.data());
-    if (digest_of(bytes) != digests_[tile])
-      throw StoreError(fmt::format("{}: {} does not hold what was written to tile {}", dataset_.origin().file,
-                                   dataset_.name(), tile));
-    whole.add(bytes);
-  }
-  return whole.value();
+void OutputColumn::write(const std::vector<std::uint64_t>& start, const EncodedColumn& column) {
+  if (dataset_.layout().chunk.empty())
+    dataset_.write_all(column.values().data());
+  else
+    dataset_.write_chunk(start, column.form(), column.stored());
+  whole_.add(column.values());
+  digests_.push_back(column.digest());
 }
 
 void OutputColumn::finish(const h5::File& file, const h5::Dataset& tile_scale) const {
-  dataset_.set_text(schema::kDigest, digest_text(read_back()));
+  dataset_.set_text(schema::kDigest, digest_text(whole_.value()));
   const h5::Dataset stored =
       file.create_dataset(schema::tile_digests_of(dataset_.name()), schema::tile_digest_layout(digests_.size()));
   write_plain(stored, digests_);

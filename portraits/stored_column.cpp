@@ -34,16 +34,35 @@ StoredColumn::StoredColumn(const h5::File& file, const std::string& name, h5::El
       digests_(read_digests(file, dataset_, rows)),
       held_(rows.tile_count()) {}
 
+void StoredColumn::decode(std::uint64_t number) {
+  const ChunkForm form = dataset_.read_chunk(rows_.box(number).start, next_);
+  // Tiles that are all NaN, all zero, all settled follow each other: the same bytes decode to the same values.
+  if (decoded_ && form == form_ && next_ == stored_) return;
+  decoded_ = false;
+  values_.resize(h5::Layout{dataset_.layout().element, dataset_.layout().chunk, {}}.bytes());
+  const std::string_view problem = decode_chunk(next_, form, h5::size_of(dataset_.layout().element), values_);
+  if (!problem.empty()) broken(dataset_, fmt::format("is damaged: the chunk of tile {} {}", number, problem));
+  stored_.swap(next_);
+  form_ = form;
+  decoded_ = true;
+}
+
+void StoredColumn::read(std::uint64_t number) {
+  if (!dataset_.layout().chunk.empty()) return decode(number);
+  values_.resize(dataset_.layout().bytes());
+  dataset_.read_all(values_.data());
+}
+
 std::span<const std::byte> StoredColumn::tile(std::uint64_t number) {
-  if (number == held_) return bytes_;
-  const Box box = rows_.box(number);
+  const std::size_t size = rows_.range(number).count * h5::size_of(dataset_.layout().element);
+  if (number == held_) return std::span(values_).first(size);
   held_ = rows_.tile_count();
-  bytes_.resize(box.size() * h5::size_of(dataset_.layout().element));
-  dataset_.read(box.start, box.extent, bytes_.data());
-  if (digest_of(bytes_) != digests_[number])
+  read(number);
+  const auto values = std::span(values_).first(size);
+  if (digest_of(values) != digests_[number])
     broken(dataset_, fmt::format("holds other values than were written (the digest of tile {} differs)", number));
   held_ = number;
-  return bytes_;
+  return values;
 }
 
 }  // namespace portrait

@@ -33,11 +33,18 @@ class StoredColumn {
   const h5::Dataset& dataset() const { return dataset_; }
 
  private:
+  void read(std::uint64_t number);
+  void decode(std::uint64_t number);
+
   h5::Dataset dataset_;
   TileRows rows_;
   std::vector<std::uint64_t> digests_;
-  std::vector<std::byte> bytes_;
-  std::uint64_t held_;  ///< the tile in bytes_, or tile_count
+  std::vector<std::byte> values_;      ///< of a whole chunk
+  std::vector<std::byte> stored_;      ///< the chunk they were decoded from
+  std::vector<std::byte> next_;        ///< the chunk read last
+  std::uint64_t held_;                 ///< the tile in values_, or tile_count
+  bool decoded_ = false;               ///< values_ are those of stored_
+  ChunkForm form_ = ChunkForm::plain;  ///< of stored_
 };
 
 template <typename Use>

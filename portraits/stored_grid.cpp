@@ -29,6 +29,7 @@ void write_family(const h5::File& file, const Grid& grid) {
   file.set_integer("n", grid.family.n);
   file.set_text("prefilter", std::string(to_string(grid.family.prefilter)));
   file.set_text("horizon", schema::horizon_text(grid.horizon));
+  if (grid.sampling) file.set_real("sampling", *grid.sampling);
   file.set_text("precision", schema::precision_text(grid.precision));
 }
 
@@ -64,6 +65,15 @@ std::optional<Horizon> horizon_named(std::string_view word) {
   const std::optional<double> number = parse_number(word);
   if (!number || !std::isfinite(*number) || *number <= 0) return std::nullopt;
   return Horizon::fixed(*number);
+}
+
+/// Files of format 1.0 have none.
+std::optional<double> read_sampling(const h5::File& file) {
+  if (!file.has("sampling")) return std::nullopt;
+  const double dead_times = file.real("sampling");
+  if (!std::isfinite(dead_times) || dead_times <= 0)
+    broken(file, fmt::format("attribute sampling is {}", number_text(dead_times)));
+  return dead_times;
 }
 
 LoopFamily read_family(const h5::File& file) {
@@ -149,6 +159,7 @@ Grid read_grid(const h5::File& file) {
   Grid grid{.title = file.text("title"),
             .family = read_family(file),
             .horizon = read_word(file, "horizon", horizon_named),
+            .sampling = read_sampling(file),
             .precision = read_word(file, "precision", precision_named),
             .measures = read_measures(file),
             .axes = {},

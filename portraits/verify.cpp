@@ -1,6 +1,11 @@
 #include "portraits/verify.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
+#include <future>
+#include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -16,32 +21,63 @@
 namespace portrait {
 namespace {
 
-void check_values(StoredColumn& column, const TileRows& rows) {
+void check_values(StoredColumn& column, const TileRows& rows, const std::string& digest) {
   Digest whole;
   for (std::uint64_t tile = 0; tile < rows.tile_count(); ++tile) whole.add(column.tile(tile));
   const h5::Dataset& dataset = column.dataset();
-  if (digest_text(whole.value()) != dataset.text(schema::kDigest))
+  if (digest_text(whole.value()) != digest)
     throw IntegrityError(fmt::format("{}: {} holds other values than were written (its digest differs)",
                                      dataset.origin().file, dataset.name()));
 }
 
-CheckedDataset checked_column(const h5::File& file, const Grid& grid, const std::string& name,
-                              h5::Element element) {
-  CheckedDataset checked{name, "", ""};
-  try {
-    const TileRows rows(grid);
-    StoredColumn column(file, name, element, rows);
-    checked.digest = column.dataset().text(schema::kDigest);
-    check_values(column, rows);
-  } catch (const IntegrityError& error) {
-    checked.problem = error.what();
+/// A measure or the status on its way to a CheckedDataset. HDF5 opens and closes it on one thread, any may check
+/// it.
+class ColumnCheck {
+ public:
+  ColumnCheck(const h5::File& file, const TileRows& rows, const std::string& name, h5::Element element)
+      : rows_(&rows), result_{name, "", ""} {
+    noting_problems([&] {
+      column_.emplace(file, name, element, rows);
+      result_.digest = column_->dataset().text(schema::kDigest);
+    });
   }
-  return checked;
+
+  void run() {
+    if (result_.problem.empty()) noting_problems([&] { check_values(*column_, *rows_, result_.digest); });
+  }
+  const CheckedDataset& result() const { return result_; }
+
+ private:
+  template <typename Work>
+  void noting_problems(Work work) {
+    try {
+      work();
+    } catch (const IntegrityError& error) {
+      result_.problem = error.what();
+    }
+  }
+
+  const TileRows* rows_;
+  std::optional<StoredColumn> column_;
+  CheckedDataset result_;
+};
+
+void run_all(std::vector<ColumnCheck>& checks, int threads) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < checks.size(); k = next++) checks[k].run();
+  };
+  const auto count = static_cast<std::size_t>(
+      threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  std::vector<std::future<void>> others;
+  while (others.size() + 1 < std::min(count, checks.size())) others.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void>& other : others) other.get();
 }
 
 }  // namespace
 
-VerifyReport inspect(const std::filesystem::path& path) {
+VerifyReport inspect(const std::filesystem::path& path, int threads) {
   const h5::File file = open_portrait(path);
   const Grid grid = read_grid(file);
   read_facts(file);
@@ -52,16 +88,19 @@ VerifyReport inspect(const std::filesystem::path& path) {
   };
   for (const Axis& axis : grid.axes) add_parameter(axis.parameter());
   for (const FixedParameter& fixed : grid.fixed) add_parameter(fixed.parameter);
+  const TileRows rows(grid);
+  std::vector<ColumnCheck> checks;
   for (const Measure measure : grid.measures)
-    report.datasets.push_back(
-        checked_column(file, grid, std::string(to_string(measure)), schema::element_of(grid.precision)));
-  report.datasets.push_back(checked_column(file, grid, schema::kStatus, h5::Element::uint8));
+    checks.emplace_back(file, rows, std::string(to_string(measure)), schema::element_of(grid.precision));
+  checks.emplace_back(file, rows, schema::kStatus, h5::Element::uint8);
+  run_all(checks, threads);
+  for (const ColumnCheck& check : checks) report.datasets.push_back(check.result());
   read_row_of_uint64(file, schema::tile_digests_of(schema::kTile));
   return report;
 }
 
-VerifyReport verify(const std::filesystem::path& path) {
-  VerifyReport report = inspect(path);
+VerifyReport verify(const std::filesystem::path& path, int threads) {
+  VerifyReport report = inspect(path, threads);
   std::string problems;
   for (const CheckedDataset& dataset : report.datasets)
     if (!dataset.problem.empty()) problems += (problems.empty() ? "" : "\n") + dataset.problem;

@@ -21,11 +21,12 @@ struct VerifyReport {
 };
 
 /// Reads everything, goes on after a damaged column, and reports all. Throws as PortraitReader does when the
-/// file cannot be opened as a portrait or its grid is damaged.
-VerifyReport inspect(const std::filesystem::path& path);
+/// file cannot be opened as a portrait or its grid is damaged. Columns are shared among threads; 0: as many as the
+/// machine has.
+VerifyReport inspect(const std::filesystem::path& path, int threads = 0);
 
 /// As inspect, yet throws IntegrityError when any dataset has a problem: its first line is that of the first
 /// such dataset, then one line for every other.
-VerifyReport verify(const std::filesystem::path& path);
+VerifyReport verify(const std::filesystem::path& path, int threads = 0);
 
 }  // namespace portrait

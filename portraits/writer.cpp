@@ -1,9 +1,5 @@
 #include "portraits/writer.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -30,20 +26,10 @@ void write_nexus(const h5::File& file, const Grid& grid) {
   if (!axes.empty()) file.set_texts("axes", axes);
 }
 
-/// Every NaN becomes the same NaN: its sign and payload depend on the machine.
-template <typename Real>
-void write_as(OutputColumn& column, std::uint64_t tile, const std::vector<double>& values) {
-  std::vector<Real> stored(values.size());
-  std::transform(values.begin(), values.end(), stored.begin(), [](double value) {
-    return std::isnan(value) ? std::numeric_limits<Real>::quiet_NaN() : static_cast<Real>(value);
-  });
-  column.write(tile, std::as_bytes(std::span(stored)));
-}
-
 /// The last chance to notice a disk that loses what it is given.
-void check_readable(const TemporaryFile& written) {
+void check_readable(const TemporaryFile& written, int threads) {
   try {
-    verify(written.path());
+    verify(written.path(), threads);
   } catch (const IntegrityError& error) {
     throw StoreError(fmt::format("{}: not published, for it does not read back as written: {}",
                                  written.target().string(), error.what()));
@@ -56,7 +42,7 @@ void check_readable(const TemporaryFile& written) {
 class PortraitWriter::File {
  public:
   File(const std::filesystem::path& path, const Grid& grid)
-      : grid_(grid), rows_(grid), file_(h5::File::create(path)), written_(rows_.tile_count(), false) {}
+      : grid_(grid), rows_(grid), file_(h5::File::create(path)) {}
   ~File() {
     if (!closed_) abandon();
   }
@@ -75,18 +61,20 @@ class PortraitWriter::File {
     status_.push_back(OutputColumn::of_status(file_, grid_));
   }
 
-  void write(std::uint64_t tile, const MeasureColumns& columns) {
-    PORTRAIT_CHECK(tile < written_.size() && !written_[tile]);
-    PORTRAIT_CHECK(columns.kept == grid_.measures);
-    PORTRAIT_CHECK_EQ(columns.settings(), rows_.range(tile).count);
-    for (std::size_t k = 0; k < measures_.size(); ++k) write_values(measures_[k], tile, columns.values[k]);
-    status_.front().write(tile, std::as_bytes(std::span(columns.status)));
-    written_[tile] = true;
+  EncodedTile encode(std::uint64_t tile, const MeasureColumns& columns) const {
+    return encode_tile(grid_, rows_, tile, columns);
   }
 
-  std::uint64_t tiles_left() const {
-    return static_cast<std::uint64_t>(std::count(written_.begin(), written_.end(), false));
+  void write(const EncodedTile& tile) {
+    PORTRAIT_CHECK(tile.number == written_ && written_ < rows_.tile_count());
+    PORTRAIT_CHECK_EQ(tile.measures.size(), measures_.size());
+    const std::vector<std::uint64_t> start = rows_.box(tile.number).start;
+    for (std::size_t k = 0; k < measures_.size(); ++k) measures_[k].write(start, tile.measures[k]);
+    status_.front().write(start, tile.status);
+    ++written_;
   }
+
+  std::uint64_t tiles_left() const { return rows_.tile_count() - written_; }
 
   void finish(const RunFacts& facts) {
     PORTRAIT_CHECK_EQ(tiles_left(), std::uint64_t{0});
@@ -107,17 +95,9 @@ class PortraitWriter::File {
     }
   }
 
-  void write_values(OutputColumn& column, std::uint64_t tile, const std::vector<double>& values) {
-    PORTRAIT_CHECK_EQ(values.size(), rows_.range(tile).count);
-    if (grid_.precision == Precision::real64)
-      write_as<double>(column, tile, values);
-    else
-      write_as<float>(column, tile, values);
-  }
-
   h5::Dataset create_tile_scale() const {
     file_.create_group(schema::kTileDigests);
-    std::vector<std::uint64_t> numbers(written_.size());
+    std::vector<std::uint64_t> numbers(written_);
     for (std::uint64_t tile = 0; tile < numbers.size(); ++tile) numbers[tile] = tile;
     const h5::Dataset scale =
         file_.create_dataset(schema::tile_digests_of(schema::kTile), schema::tile_digest_layout(numbers.size()));
@@ -132,7 +112,7 @@ class PortraitWriter::File {
   h5::File file_;
   std::vector<OutputColumn> measures_;
   std::vector<OutputColumn> status_;  ///< one
-  std::vector<bool> written_;
+  std::uint64_t written_ = 0;         ///< tiles
   bool closed_ = false;
 };
 
@@ -146,9 +126,14 @@ PortraitWriter::PortraitWriter(const std::filesystem::path& path, const Grid& gr
 
 PortraitWriter::~PortraitWriter() = default;
 
-void PortraitWriter::write(std::uint64_t tile, const MeasureColumns& columns) {
+EncodedTile PortraitWriter::encode(std::uint64_t tile, const MeasureColumns& columns) const {
   PORTRAIT_CHECK(file_ != nullptr);
-  file_->write(tile, columns);
+  return file_->encode(tile, columns);
+}
+
+void PortraitWriter::write(const EncodedTile& tile) {
+  PORTRAIT_CHECK(file_ != nullptr);
+  file_->write(tile);
 }
 
 std::uint64_t PortraitWriter::tiles_left() const { return file_ ? file_->tiles_left() : 0; }
@@ -157,7 +142,7 @@ void PortraitWriter::publish(const RunFacts& facts) {
   PORTRAIT_CHECK(file_ != nullptr);
   file_->finish(facts);
   file_.reset();
-  check_readable(temporary_);
+  check_readable(temporary_, facts.threads);
   temporary_.publish(existing_);
 }
 

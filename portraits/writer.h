@@ -1,14 +1,15 @@
-/// Writes a portrait: tiles in any order, then everything at once under its name.
+/// Writes a portrait: tile by tile, then everything at once under its name.
 ///
 ///     PortraitWriter writer(path, grid, {command_line, method});
-///     for every tile: writer.write(tile, columns);
+///     for every tile: writer.write(writer.encode(tile, columns));
 ///     writer.publish({wall_seconds, threads});
 ///
-/// Values are the same bytes in whatever order tiles come. Every NaN is stored as the one quiet NaN, every
-/// measure in the grid's precision. A writer that is not published leaves nothing behind.
+/// Encoding is most of the work, and may be done by many threads at once; writing is for one at a time, in the
+/// order of the tiles, so that a file has the same bytes whoever encoded its tiles. Every NaN is stored as the one
+/// quiet NaN, every measure in the grid's precision. A writer that is not published leaves nothing behind.
 ///
 /// errors    InputError: the file exists, or its directory does not. StoreError: disk or HDF5
-/// cost      memory: one tile, and 8 bytes per tile and column
+/// cost      memory: 8 bytes per tile and column. Time: bench/store_rate.cpp
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,7 @@
 
 #include "engine/measures/columns.h"
 #include "grids/grid.h"
+#include "portraits/encoded_tile.h"
 #include "portraits/facts.h"
 #include "portraits/temporary_file.h"
 
@@ -28,9 +30,11 @@ class PortraitWriter {
                  Existing existing = Existing::refuse);
   ~PortraitWriter();
 
-  /// REQUIRES: a tile of Tiling(grid), not written yet; the grid's measures, as many settings as the tile
-  /// has.
-  void write(std::uint64_t tile, const MeasureColumns& columns);
+  /// Any number of threads may encode while another writes. REQUIRES: a tile of Tiling(grid); the grid's measures,
+  /// as many settings as the tile has.
+  EncodedTile encode(std::uint64_t tile, const MeasureColumns& columns) const;
+  /// REQUIRES: the next tile of all.
+  void write(const EncodedTile& tile);
 
   std::uint64_t tiles_left() const;
 

@@ -54,6 +54,14 @@ Horizon horizon_argument(std::string_view option, std::string_view text) {
   return Horizon::fixed(*number);
 }
 
+std::optional<double> sampling_argument(std::string_view option, std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  const auto number = parse_number(text);
+  if (!number || !(*number > 0) || *number > kHorizonCap)
+    fail(option, fmt::format("\"{}\" is not a number of dead times above 0 and at most {}", text, kHorizonCap));
+  return number;
+}
+
 Plant plant_family_argument(std::string_view option, std::string_view text) {
   const auto plant = plant_named(text);
   if (!plant) fail(option, fmt::format("unknown plant \"{}\"{}", text, suggestion(text, words(kPlantNames))));
@@ -65,6 +73,12 @@ Prefilter prefilter_argument(std::string_view option, std::string_view text) {
   if (!prefilter)
     fail(option, fmt::format("unknown prefilter \"{}\"{}", text, suggestion(text, words(kPrefilterNames))));
   return *prefilter;
+}
+
+Method method_argument(std::string_view option, std::string_view text) {
+  const auto method = method_named(text);
+  if (!method) fail(option, fmt::format("unknown method \"{}\"{}", text, suggestion(text, words(kMethodNames))));
+  return *method;
 }
 
 RealPlant real_plant_argument(std::string_view option, std::string_view text, Plant family) {

@@ -1,6 +1,7 @@
 /// Arguments as users write them, turned into what the library takes. All throw InputError with the option's name.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "engine/loop/horizon.h"
 #include "engine/loop/real_plant.h"
+#include "engine/sweep/method.h"
 
 namespace portrait::tools {
 
@@ -17,8 +19,12 @@ double number_argument(std::string_view option, std::string_view text);
 /// A number of dead times above 0, or "auto".
 Horizon horizon_argument(std::string_view option, std::string_view text);
 
+/// A number of dead times above 0, finite; nothing when the text is empty.
+std::optional<double> sampling_argument(std::string_view option, std::string_view text);
+
 Plant plant_family_argument(std::string_view option, std::string_view text);
 Prefilter prefilter_argument(std::string_view option, std::string_view text);
+Method method_argument(std::string_view option, std::string_view text);
 
 /// "K=2.5,Td=0.4[,T1=3]" for a plant of this family; K is 1 when it is not given.
 RealPlant real_plant_argument(std::string_view option, std::string_view text, Plant family);

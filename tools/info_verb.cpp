@@ -52,6 +52,7 @@ void print_as_json(const Grid& grid, const Facts& facts) {
               {"n", grid.family.n},
               {"prefilter", to_string(grid.family.prefilter)},
               {"horizon", json_horizon(grid.horizon)},
+              {"sampling", grid.sampling ? Json(*grid.sampling) : Json(nullptr)},
               {"precision", grid.precision == Precision::real64 ? "double" : "single"},
               {"title", grid.title},
               {"state", facts.state},
@@ -80,6 +81,7 @@ void print_as_text(const Grid& grid, const Facts& facts) {
   text += fmt::format("{}, n = {}, prefilter {}, horizon {}\n", to_string(grid.family.plant), grid.family.n,
                       to_string(grid.family.prefilter),
                       grid.horizon.automatic ? "auto" : number_text(grid.horizon.dead_times) + " dead times");
+  if (grid.sampling) text += fmt::format("noise held over {} dead times\n", number_text(*grid.sampling));
   text += fmt::format("{} settings\n", grouped(setting_count(grid)));
   for (const Axis& axis : grid.axes) text += axis_text(axis);
   for (const FixedParameter& p : grid.fixed)

@@ -19,6 +19,9 @@ struct TableRow {
 
 constexpr TableRow kRows[] = {
     {"IAE", Measure::IAE_w, Measure::IAE_d},
+    {"ISE", Measure::ISE_w, Measure::ISE_d},
+    {"ITAE", Measure::ITAE_w, Measure::ITAE_d},
+    {"ITSE", Measure::ITSE_w, Measure::ITSE_d},
     {"TV of y", Measure::TV_yw, Measure::TV_yd},
     {"TV0 of y", Measure::TV0_yw, Measure::TV0_yd},
     {"TV1 of y", Measure::TV1_yw, Measure::TV1_yd},
@@ -124,8 +127,8 @@ std::string measures_table(const MeasureRow& row, const std::vector<Measure>& me
     text += fmt::format("  {:<12} {:>14} {:>14}\n", r.title, cell(row, measures, r.under_w),
                         cell(row, measures, r.under_d));
   }
-  for (const Measure m : {Measure::Ms, Measure::Mt})
-    if (contains(measures, m)) text += fmt::format("  {:<12} {:>14}\n", to_string(m), cell(row, measures, m));
+  for (const Measure m : measures)
+    if (info(m).step == '-') text += fmt::format("  {:<12} {:>14}\n", to_string(m), cell(row, measures, m));
   return text;
 }
 

@@ -6,7 +6,8 @@
 #include "engine/base/words.h"
 #include "engine/loop/parameters.h"
 #include "engine/loop/stability.h"
-#include "engine/reference/measure.h"
+#include "engine/reference/response.h"
+#include "engine/sweep/method.h"
 #include "tools/arguments.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
@@ -26,7 +27,7 @@ unit input-disturbance step, and prints its measures.)";
 /// The line as typed; empty means not given.
 struct SimulateArguments {
   std::string plant, kappa, tau_i = "inf", delta, tau_d, tau_1, tau_f, b = "0", c = "0", prefilter,
-                            horizon = "auto", trace;
+                            horizon = "auto", sampling, method = "kernel", trace;
   int n = -1;
   bool json = false;
 };
@@ -79,29 +80,32 @@ std::string loop_text(const Loop& loop) {
                      to_string(loop.family.prefilter), setting_text(loop));
 }
 
-std::string horizon_text(const Horizon& horizon, const reference::Measured& measured) {
+std::string horizon_text(const Horizon& horizon, const SettingMeasured& measured) {
   if (measured.status == Status::unstable) return "";
   return fmt::format(", {} dead times{}", short_number(measured.horizon), horizon.automatic ? " (auto)" : "");
 }
 
-/// A trace may be wanted of an unstable loop too, whose end nothing but the caller can choose.
-void trace_if_asked(const SimulateArguments& a, const Loop& loop, const reference::Response& response) {
+/// A trace may be wanted of an unstable loop too, whose end nothing but the caller can choose. The responses are those of the
+/// reference, which keeps them; the kernel keeps measures.
+void trace_if_asked(const SimulateArguments& a, const Loop& loop, const Horizon& horizon) {
   if (a.trace.empty()) return;
+  const bool stable = is_stable(open_loop(loop));
+  if (!stable && horizon.automatic)
+    throw InputError("--trace of an unstable loop needs a fixed --horizon: its responses never settle");
+  const reference::Response response = reference::simulate(loop, horizon);
   write_trace(response, a.trace);
   print_message(fmt::format("responses over {} dead times written to {}{}", short_number(response.horizon), a.trace,
-                            is_stable(open_loop(loop)) ? "" : " (the loop is unstable)"));
+                            stable ? "" : " (the loop is unstable)"));
 }
 
-reference::Measured run(const SimulateArguments& a, const Loop& loop, const Horizon& horizon) {
-  if (is_stable(open_loop(loop))) {
-    const reference::Response response = reference::simulate(loop, horizon);
-    trace_if_asked(a, loop, response);
-    return reference::measure(loop, response);
-  }
-  if (!a.trace.empty() && horizon.automatic)
-    throw InputError("--trace of an unstable loop needs a fixed --horizon: its responses never settle");
-  if (!a.trace.empty()) trace_if_asked(a, loop, reference::simulate(loop, horizon));
-  return reference::measure(loop, horizon);
+SettingMeasured measure(const SimulateArguments& a, const Loop& loop, const Horizon& horizon) {
+  const Method method = method_argument("--method", a.method);
+  const std::optional<double> sampling = sampling_argument("--sampling", a.sampling);
+  SettingMeasured measured;
+  measure_settings(method, loop.family, horizon, sampling, {&loop.setting, 1}, {&measured, 1});
+  if (measured.method != method)
+    print_message("note: too stiff for the kernel's panels, measured by the reference method");
+  return measured;
 }
 
 int simulate(const SimulateArguments& a) {
@@ -110,14 +114,16 @@ int simulate(const SimulateArguments& a) {
   if (loop.family.n == 0 && loop.family.prefilter == Prefilter::full && loop.setting.delta > 0)
     print_message(
         "note: with n = 0 the prefilter \"full\" does not cancel the zeros of the setpoint response; \"pi\" does");
-  const reference::Measured measured = run(a, loop, horizon);
+  const SettingMeasured measured = measure(a, loop, horizon);
+  trace_if_asked(a, loop, horizon);
   const auto all = all_measures();
   const std::vector<Measure> measures(all.begin(), all.end());
   if (a.json) {
     print_json({{"settings", json_settings(loop)},
                 {"measures", json_measures(measured.measures, measures)},
                 {"status", to_string(measured.status)},
-                {"horizon", measured.horizon}});
+                {"horizon", measured.horizon},
+                {"method", method_text(measured.method)}});
     return kDone;
   }
   print_text(loop_text(loop) +
@@ -143,6 +149,9 @@ void add_simulate(CLI::App& app, Invocation& invocation) {
   verb->add_option("--b", a->b, "prefilter numerator, coefficient of s")->capture_default_str();
   verb->add_option("--c", a->c, "prefilter numerator, coefficient of s^2")->capture_default_str();
   verb->add_option("--horizon", a->horizon, "dead times to simulate, or auto")->capture_default_str();
+  verb->add_option("--sampling", a->sampling, "dead times over which measurement noise is held, for noise_gain");
+  verb->add_option("--method", a->method, "kernel, as sweeps use it, or reference, its slow judge")
+      ->capture_default_str();
   verb->add_option("--trace", a->trace, "write t, y and u of both steps to this CSV file");
   verb->add_flag("--json", a->json, "one JSON object instead of tables");
   verb->callback([a, &invocation] { invocation.exit_code = simulate(*a); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -49,6 +50,7 @@ SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads) {
   SweepJob job;
   job.family = grid.family;
   job.horizon = grid.horizon;
+  job.sampling = grid.sampling;
   job.measures = grid.measures;
   job.tile_count = tiling.tile_count();
   job.threads = threads;
@@ -61,16 +63,18 @@ SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads) {
 /// Seconds a setting takes on one thread: settings spread evenly over the grid, for about half a second.
 double seconds_a_setting(const Grid& grid) {
   using Clock = std::chrono::steady_clock;
-  const std::uint64_t count = setting_count(grid), samples = std::min<std::uint64_t>(count, 256);
+  constexpr std::size_t kAtATime = TileQueue::kSliceSettings;  // as a sweep does
+  const std::uint64_t count = setting_count(grid), samples = std::min<std::uint64_t>(count, 4096);
   const auto begin = Clock::now();
   std::uint64_t done = 0;
   double seconds = 0;
-  MeasureColumns columns(grid.measures, 1);
   while (done < samples && seconds < 0.5) {
     // 97 is a step through the samples in an order that visits all parts of the grid early.
-    const Setting setting = setting_at(grid, count / samples * (done * 97 % samples));
-    measure_settings(grid.family, grid.horizon, std::span(&setting, 1), 0, columns);
-    ++done;
+    std::vector<Setting> settings;
+    for (; settings.size() < kAtATime && done < samples; ++done)
+      settings.push_back(setting_at(grid, count / samples * (done * 97 % samples)));
+    std::vector<SettingMeasured> measured(settings.size());
+    measure_settings(Method::kernel, grid.family, grid.horizon, grid.sampling, settings, measured);
     seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   }
   return seconds / static_cast<double>(done);
@@ -129,7 +133,8 @@ int report(const SweepArguments& a, const SweepOutcome& outcome, const Tally& ta
                 {"seconds", outcome.seconds},
                 {"settings_per_second", rate},
                 {"threads", outcome.threads},
-                {"method", sweep_method()},
+                {"settings_by_reference", outcome.settings_by_reference},
+                {"method", method_text(Method::kernel)},
                 {"file", a.output}});
     return kDone;
   }
@@ -140,6 +145,10 @@ int report(const SweepArguments& a, const SweepOutcome& outcome, const Tally& ta
   print_message(fmt::format("{} settled, {} not settled at the horizon, {} unstable",
                             grouped(tally[Status::settled]), grouped(tally[Status::not_settled]),
                             grouped(tally[Status::unstable])));
+  if (outcome.settings_by_reference > 0)
+    print_message(
+        fmt::format("{} settings, too stiff for the kernel's panels, were measured by the reference method",
+                    grouped(outcome.settings_by_reference)));
   print_message(fmt::format("portrait written to {}", a.output));
   return kDone;
 }
@@ -154,14 +163,16 @@ int sweep_to_file(const SweepArguments& a, const Invocation& invocation, const G
   const std::filesystem::path output(a.output);
   mention_leftovers(output);
   InterruptGuard interrupt;
-  PortraitWriter writer(output, grid, {invocation.command_line, std::string(sweep_method())},
+  PortraitWriter writer(output, grid, {invocation.command_line, method_text(Method::kernel)},
                         a.force ? Existing::replace : Existing::refuse);
   interrupt.remove_on_second(writer.temporary_path().string());
   Tally tally;
   Progress progress(setting_count(grid), Progress::usual_style(a.quiet));
-  job.store = [&](std::uint64_t tile, const MeasureColumns& columns) {
-    writer.write(tile, columns);
-    tally.add(columns);
+  job.prepare = [&](std::uint64_t tile, const MeasureColumns& columns) -> StoreStep {
+    return [&, encoded = std::make_shared<EncodedTile>(writer.encode(tile, columns))] {
+      writer.write(*encoded);
+      tally.add(columns);
+    };
   };
   job.progress = [&](std::uint64_t done) { progress.update(done); };
   job.stop = &interrupt.requested();

@@ -2,6 +2,7 @@
 /// -m flags of these files stand in engine/CMakeLists.txt and nowhere else.
 #pragma once
 
+#include "engine/kernel/margins.inl"
 #include "engine/kernel/run.inl"
 
 #define PORTRAIT_TEXT_OF(name) #name
@@ -10,6 +11,6 @@
 namespace portrait::PORTRAIT_ISA_NAME {
 
 extern const kernel::Implementation kImplementation;
-const kernel::Implementation kImplementation = {PORTRAIT_TEXT(PORTRAIT_ISA_NAME), kLanes, run};
+const kernel::Implementation kImplementation = {PORTRAIT_TEXT(PORTRAIT_ISA_NAME), kLanes, run, find_margins};
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

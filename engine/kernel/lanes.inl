@@ -1,8 +1,9 @@
 /// Many doubles side by side: the only file that knows vector instructions.
 ///
 /// Compiled once per instruction set, in a namespace of its own (PORTRAIT_ISA_NAME), from files that include no library
-/// template, so that no code of one set can be linked into another. A `Lanes` is two registers, which hides the latency
-/// of the serial recurrences; lane i never sees lane j, so a setting's result does not depend on its neighbours.
+/// template, so that no code of one set can be linked into another. A `Lanes` is one register: two hide more latency, but
+/// the series of a panel then leave the first cache. Lane i never sees lane j, so a setting's result does not depend on its
+/// neighbours.
 ///
 ///     a + b, a - b, a * b, a / b, -a        mul_add(a, b, c) = a b + c, fused where the set has it
 ///     abs, min, max, sqrt                   a < b gives a Mask; select(mask, a, b) takes a where the mask holds
@@ -82,57 +83,50 @@ inline RegisterMask from_bits(unsigned b) {
 }
 #endif
 
-inline constexpr int kRegisters = 2;
-inline constexpr int kLanes = kRegisters * kRegisterLanes;
+inline constexpr int kLanes = kRegisterLanes;
 
 struct Lanes {
-  Register r[kRegisters];
+  Register r;
 
   Lanes() = default;
-  Lanes(double x) : r{set_all(x), set_all(x)} {}  // NOLINT: a number is the same number in every lane
-  Lanes(Register a, Register b) : r{a, b} {}
-  static Lanes from(const double* p) { return {load(p), load(p + kRegisterLanes)}; }
-  void to(double* p) const {
-    store(p, r[0]);
-    store(p + kRegisterLanes, r[1]);
+  Lanes(double x) : r(set_all(x)) {}  // NOLINT: a number is the same number in every lane
+  static Lanes of(Register r) {
+    Lanes a;
+    a.r = r;
+    return a;
   }
+  static Lanes from(const double* p) { return of(load(p)); }
+  void to(double* p) const { store(p, r); }
 };
 
 struct Mask {
-  RegisterMask m[kRegisters];
-  static Mask from(unsigned b) {
-    return {{from_bits(b & ((1u << kRegisterLanes) - 1)), from_bits(b >> kRegisterLanes)}};
-  }
+  RegisterMask m;
+  static Mask from(unsigned b) { return {from_bits(b)}; }
 };
 
-inline Lanes operator+(Lanes a, Lanes b) { return {a.r[0] + b.r[0], a.r[1] + b.r[1]}; }
-inline Lanes operator-(Lanes a, Lanes b) { return {a.r[0] - b.r[0], a.r[1] - b.r[1]}; }
-inline Lanes operator*(Lanes a, Lanes b) { return {a.r[0] * b.r[0], a.r[1] * b.r[1]}; }
-inline Lanes operator/(Lanes a, Lanes b) { return {a.r[0] / b.r[0], a.r[1] / b.r[1]}; }
-inline Lanes operator-(Lanes a) { return {-a.r[0], -a.r[1]}; }
+inline Lanes operator+(Lanes a, Lanes b) { return Lanes::of(a.r + b.r); }
+inline Lanes operator-(Lanes a, Lanes b) { return Lanes::of(a.r - b.r); }
+inline Lanes operator*(Lanes a, Lanes b) { return Lanes::of(a.r * b.r); }
+inline Lanes operator/(Lanes a, Lanes b) { return Lanes::of(a.r / b.r); }
+inline Lanes operator-(Lanes a) { return Lanes::of(-a.r); }
 inline Lanes& operator+=(Lanes& a, Lanes b) { return a = a + b; }
 /// a b + c
-inline Lanes mul_add(Lanes a, Lanes b, Lanes c) {
-  return {fused(a.r[0], b.r[0], c.r[0]), fused(a.r[1], b.r[1], c.r[1])};
-}
+inline Lanes mul_add(Lanes a, Lanes b, Lanes c) { return Lanes::of(fused(a.r, b.r, c.r)); }
 /// c - a b
-inline Lanes mul_sub_from(Lanes a, Lanes b, Lanes c) {
-  return {negative_fused(a.r[0], b.r[0], c.r[0]), negative_fused(a.r[1], b.r[1], c.r[1])};
-}
-inline Lanes abs(Lanes a) { return {magnitude(a.r[0]), magnitude(a.r[1])}; }
-inline Lanes min(Lanes a, Lanes b) { return {smaller(a.r[0], b.r[0]), smaller(a.r[1], b.r[1])}; }
-inline Lanes max(Lanes a, Lanes b) { return {larger(a.r[0], b.r[0]), larger(a.r[1], b.r[1])}; }
-inline Lanes sqrt(Lanes a) { return {root(a.r[0]), root(a.r[1])}; }
-inline Mask operator<(Lanes a, Lanes b) { return {{less(a.r[0], b.r[0]), less(a.r[1], b.r[1])}}; }
+inline Lanes mul_sub_from(Lanes a, Lanes b, Lanes c) { return Lanes::of(negative_fused(a.r, b.r, c.r)); }
+inline Lanes abs(Lanes a) { return Lanes::of(magnitude(a.r)); }
+inline Lanes min(Lanes a, Lanes b) { return Lanes::of(smaller(a.r, b.r)); }
+inline Lanes max(Lanes a, Lanes b) { return Lanes::of(larger(a.r, b.r)); }
+inline Lanes sqrt(Lanes a) { return Lanes::of(root(a.r)); }
+inline Mask operator<(Lanes a, Lanes b) { return {less(a.r, b.r)}; }
 inline Mask operator>(Lanes a, Lanes b) { return b < a; }
-inline Lanes select(Mask m, Lanes a, Lanes b) {
-  return {choose(m.m[0], a.r[0], b.r[0]), choose(m.m[1], a.r[1], b.r[1])};
-}
-inline Mask operator&(Mask a, Mask b) { return {{both(a.m[0], b.m[0]), both(a.m[1], b.m[1])}}; }
-inline Mask operator|(Mask a, Mask b) { return {{either(a.m[0], b.m[0]), either(a.m[1], b.m[1])}}; }
+inline Lanes select(Mask m, Lanes a, Lanes b) { return Lanes::of(choose(m.m, a.r, b.r)); }
+inline Mask operator&(Mask a, Mask b) { return {both(a.m, b.m)}; }
+inline Mask operator|(Mask a, Mask b) { return {either(a.m, b.m)}; }
 /// a and not b
-inline Mask but_not(Mask a, Mask b) { return {{except(a.m[0], b.m[0]), except(a.m[1], b.m[1])}}; }
-inline unsigned bits(Mask m) { return bits(m.m[0]) | bits(m.m[1]) << kRegisterLanes; }
+inline Mask but_not(Mask a, Mask b) { return {except(a.m, b.m)}; }
+inline unsigned bits(Mask m) { return bits(m.m); }
 inline bool any(Mask m) { return bits(m) != 0; }
+inline Mask operator!(Mask m) { return but_not(Mask::from((1u << kLanes) - 1), m); }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

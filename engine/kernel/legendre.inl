@@ -3,7 +3,8 @@
 ///     f(x) = sum_k c_k P_k(x),  -1 <= x <= 1,  k = 0 .. kDegree
 ///
 /// Legendre rather than Chebyshev: the integral of f is 2 c_0, that of f^2 a sum of squares, integration is two entries
-/// a row, and |P_k| <= 1 gives the same cheap test that f has no zero.
+/// a row, and |P_k| <= 1 gives the same cheap test that f has no zero. A series is a kilobyte and more: every function
+/// writes where it is told, and none returns or copies one unasked.
 #pragma once
 
 #include "engine/kernel/lanes.inl"
@@ -15,63 +16,110 @@ inline constexpr int kTerms = kDegree + 1;
 
 struct Series {
   Lanes c[kTerms];
+
+  Series() = default;
+  Series(const Series&) = delete;
+  Series& operator=(const Series&) = delete;
+
+  Lanes& operator[](int k) { return c[k]; }
+  const Lanes& operator[](int k) const { return c[k]; }
 };
 
-/// f at x, by Clenshaw's sum: (k + 1) P_{k+1} = (2k + 1) x P_k - k P_{k-1}.
-inline Lanes value(const Series& f, Lanes x) {
-  Lanes b1 = 0.0, b2 = 0.0;
-  for (int k = kDegree; k >= 1; --k) {
-    const double alpha = (2.0 * k + 1) / (k + 1), beta = -(k + 1.0) / (k + 2);
-    const Lanes b0 = mul_add(Lanes(alpha) * x, b1, mul_add(Lanes(beta), b2, f.c[k]));
-    b2 = b1;
-    b1 = b0;
-  }
-  return mul_add(x, b1, mul_add(Lanes(-0.5), b2, f.c[0]));
+inline void set_zero(Series& f) {
+  for (Lanes& c : f.c) c = Lanes(0.0);
+}
+
+/// to = a f
+inline void set_scaled(Series& to, Lanes a, const Series& f) {
+  for (int k = 0; k < kTerms; ++k) to[k] = a * f[k];
+}
+
+inline void add_scaled(Series& to, Lanes a, const Series& f) {
+  for (int k = 0; k < kTerms; ++k) to[k] = mul_add(a, f[k], to[k]);
+}
+
+inline void copy(Series& to, const Series& f) {
+  for (int k = 0; k < kTerms; ++k) to[k] = f[k];
 }
 
 inline Lanes value_at_start(const Series& f) {
-  Lanes even = f.c[0], odd = f.c[1];
-  for (int k = 2; k < kTerms; k += 2) even += f.c[k];
-  for (int k = 3; k < kTerms; k += 2) odd += f.c[k];
+  Lanes even = f[0], odd = f[1];
+  for (int k = 2; k < kTerms; k += 2) even += f[k];
+  for (int k = 3; k < kTerms; k += 2) odd += f[k];
   return even - odd;
 }
 
 inline Lanes value_at_end(const Series& f) {
-  Lanes sum = f.c[0];
-  for (int k = 1; k < kTerms; ++k) sum += f.c[k];
+  Lanes even = f[0], odd = f[1];
+  for (int k = 2; k < kTerms; k += 2) even += f[k];
+  for (int k = 3; k < kTerms; k += 2) odd += f[k];
+  return even + odd;
+}
+
+/// Calls use(k, P_k(x)) for k = 0 .. last: (k + 1) P_{k+1} = (2k + 1) x P_k - k P_{k-1}.
+template <int last, typename Use>
+inline void for_each_polynomial(Lanes x, Use use) {
+  Lanes before = 1.0, here = x;
+  use(0, before);
+  use(1, here);
+  for (int k = 1; k < last; ++k) {
+    const double alpha = (2.0 * k + 1) / (k + 1), beta = static_cast<double>(k) / (k + 1);
+    const Lanes next = mul_sub_from(Lanes(beta), before, (Lanes(alpha) * x) * here);
+    use(k + 1, next);
+    before = here;
+    here = next;
+  }
+}
+
+inline Lanes value(const Series& f, Lanes x) {
+  Lanes sum = 0.0;
+  for_each_polynomial<kDegree>(x, [&](int k, Lanes P) { sum = mul_add(f[k], P, sum); });
   return sum;
 }
 
 /// Sum of |c_k| from k = `from` on: f without its first terms is nowhere larger.
 inline Lanes rest_bound(const Series& f, int from) {
-  Lanes a = abs(f.c[from]), b = abs(f.c[from + 1]);
-  for (int k = from + 2; k < kTerms; k += 2) a += abs(f.c[k]);
-  for (int k = from + 3; k < kTerms; k += 2) b += abs(f.c[k]);
+  Lanes a = abs(f[from]), b = abs(f[from + 1]);
+  for (int k = from + 2; k < kTerms; k += 2) a += abs(f[k]);
+  for (int k = from + 3; k < kTerms; k += 2) b += abs(f[k]);
   return a + b;
 }
 
-/// start + (h/2) int_{-1}^x f: int P_k = (P_{k+1} - P_{k-1})/(2k + 1). The term of degree kDegree + 1 is dropped.
-inline Series integral(const Series& f, Lanes half_length, Lanes start) {
-  Series scaled, g;
-  for (int k = 0; k < kTerms; ++k) scaled.c[k] = f.c[k] * (half_length * Lanes(1.0 / (2 * k + 1)));
-  g.c[0] = start + (scaled.c[0] - scaled.c[1]);
-  for (int k = 1; k < kDegree; ++k) g.c[k] = scaled.c[k - 1] - scaled.c[k + 1];
-  g.c[kDegree] = scaled.c[kDegree - 1];
-  return g;
+/// h/(2 (2k + 1)) for a panel h long: what integration takes of every term.
+struct IntegralWeights {
+  double of[kTerms];
+  void prepare(double half_length) {
+    for (int k = 0; k < kTerms; ++k) of[k] = half_length / (2 * k + 1);
+  }
+};
+
+/// to = start + (h/2) int_{-1}^x f: int P_k = (P_{k+1} - P_{k-1})/(2k + 1). The term of degree kDegree + 1 is dropped.
+inline void set_integral(Series& to, const Series& f, const IntegralWeights& weight, Lanes start) {
+  to[0] = start + mul_sub_from(f[1], Lanes(weight.of[1]), f[0] * Lanes(weight.of[0]));
+  for (int k = 1; k < kDegree; ++k)
+    to[k] = mul_sub_from(f[k + 1], Lanes(weight.of[k + 1]), f[k - 1] * Lanes(weight.of[k - 1]));
+  to[kDegree] = f[kDegree - 1] * Lanes(weight.of[kDegree - 1]);
 }
 
-/// d/dx f.
-inline Series derivative(const Series& f) {
-  Series d;
-  d.c[kDegree] = 0.0;
-  d.c[kDegree - 1] = Lanes(2.0 * kDegree - 1) * f.c[kDegree];
-  Lanes above = d.c[kDegree - 1], above2 = 0.0;  // d_k/(2k+1) = c_{k+1} + d_{k+2}/(2k+5)
-  for (int k = kDegree - 2; k >= 0; --k) {
-    d.c[k] = Lanes(2.0 * k + 1) * mul_add(above2, Lanes(1.0 / (2 * k + 5)), f.c[k + 1]);
-    above2 = above;
-    above = d.c[k];
+/// to = d/dx f.
+inline void set_derivative(Series& to, const Series& f) {
+  // d_k/(2k+1) = c_{k+1} + d_{k+2}/(2k+5)
+  Lanes even = 0.0, odd = 0.0;
+  to[kDegree] = 0.0;
+  for (int k = kDegree - 1; k >= 0; --k) {
+    Lanes& sum = k % 2 == 0 ? even : odd;
+    sum += f[k + 1];
+    to[k] = Lanes(2.0 * k + 1) * sum;
   }
-  return d;
+}
+
+/// to = x f: x P_k = ((k+1) P_{k+1} + k P_{k-1})/(2k + 1), the highest term dropped.
+inline void set_times_x(Series& to, const Series& f) {
+  to[0] = f[1] * Lanes(1.0 / 3);
+  for (int k = 1; k < kDegree; ++k)
+    to[k] =
+        mul_add(f[k - 1], Lanes(static_cast<double>(k) / (2 * k - 1)), f[k + 1] * Lanes((k + 1.0) / (2 * k + 3)));
+  to[kDegree] = f[kDegree - 1] * Lanes(static_cast<double>(kDegree) / (2 * kDegree - 1));
 }
 
 /// Exact smallest and largest value of c_0 + c_1 x + c_2 P_2(x) on [-1, 1].
@@ -91,12 +139,9 @@ inline Extent parabola_extent(Lanes c0, Lanes c1, Lanes c2) {
 /// Lanes in which f certainly has no zero: its parabola keeps further from 0 than the other terms can reach.
 inline Mask has_no_zero(const Series& f) {
   const Lanes rest = rest_bound(f, 3);
-  const Extent e = parabola_extent(f.c[0], f.c[1], f.c[2]);
+  const Extent e = parabola_extent(f[0], f[1], f[2]);
   return (e.low > rest) | (-e.high > rest);
 }
-
-/// A cheaper and weaker form of the same: |c_0| against all other terms.
-inline Mask clearly_has_no_zero(const Series& f) { return abs(f.c[0]) > rest_bound(f, 1); }
 
 /// P_k((x - 1)/2) = sum_j left[k][j] P_j(x): f on the left half of its panel, as a series of its own; on the right half the
 /// signs alternate. Lower triangular.
@@ -126,27 +171,64 @@ constexpr HalvingTable make_halving_table() {
 
 inline constexpr HalvingTable kHalving = make_halving_table();
 
-inline Series left_half(const Series& f) {
-  Series g;
+inline void set_left_half(Series& to, const Series& f) {
   for (int j = 0; j < kTerms; ++j) {
     Lanes sum = 0.0;
-    for (int k = j; k < kTerms; ++k) sum = mul_add(f.c[k], Lanes(kHalving.left[k][j]), sum);
-    g.c[j] = sum;
+    for (int k = j; k < kTerms; ++k) sum = mul_add(f[k], Lanes(kHalving.left[k][j]), sum);
+    to[j] = sum;
   }
-  return g;
 }
 
-inline Series right_half(const Series& f) {
-  Series g;
+inline void set_right_half(Series& to, const Series& f) {
   for (int j = 0; j < kTerms; ++j) {
     Lanes sum = 0.0;
     for (int k = j; k < kTerms; ++k) {
       const double sign = (k + j) % 2 == 0 ? 1 : -1;
-      sum = mul_add(f.c[k], Lanes(sign * kHalving.left[k][j]), sum);
+      sum = mul_add(f[k], Lanes(sign * kHalving.left[k][j]), sum);
     }
-    g.c[j] = sum;
+    to[j] = sum;
   }
-  return g;
+}
+
+/// to = the polynomial nearest in the mean to `left` and `right`, the halves of one panel: the transpose of halving, with
+/// the norms of P_k between. REQUIRES: to is neither of them.
+inline void set_joined(Series& to, const Series& left, const Series& right) {
+  for (int j = 0; j < kTerms; ++j) {
+    Lanes sum = 0.0;
+    for (int k = 0; k <= j; ++k) {
+      const double weight = 0.5 * (2 * j + 1) / (2 * k + 1) * kHalving.left[j][k];
+      const Lanes both = (k + j) % 2 == 0 ? left[k] + right[k] : left[k] - right[k];
+      sum = mul_add(both, Lanes(weight), sum);
+    }
+    to[j] = sum;
+  }
+}
+
+/// to = f on [-1, end] of its panel, as a series of its own: Clenshaw's sum with series in place of numbers.
+inline void set_cut_off(Series& to, const Series& f, double end) {
+  const Lanes half = 0.5 * (end + 1), center = 0.5 * (end - 1);
+  Series rows[3], moved;
+  Series *b0 = &rows[0], *b1 = &rows[1], *b2 = &rows[2];
+  set_zero(*b1);
+  set_zero(*b2);
+  const auto at_argument = [&](Series& s, const Series& g) {
+    set_times_x(moved, g);
+    set_scaled(s, center, g);
+    add_scaled(s, half, moved);
+  };
+  for (int k = kDegree; k >= 1; --k) {
+    at_argument(*b0, *b1);
+    for (Lanes& c : b0->c) c = c * Lanes((2.0 * k + 1) / (k + 1));
+    add_scaled(*b0, Lanes(-(k + 1.0) / (k + 2)), *b2);
+    (*b0)[0] += f[k];
+    Series* const spare = b2;
+    b2 = b1;
+    b1 = b0;
+    b0 = spare;
+  }
+  at_argument(to, *b1);
+  add_scaled(to, Lanes(-0.5), *b2);
+  to[0] += f[0];
 }
 
 /// Solver of tau v' + v = e on a panel, a tridiagonal system in the coefficients of v' (Galerkin, kDegree + 1 terms):
@@ -155,31 +237,36 @@ inline Series right_half(const Series& f) {
 ///
 /// All pivots exceed tau: nothing cancels, however small tau is.
 struct Lag {
-  Lanes tau;
   Lanes lower[kTerms], inverse[kTerms], upper[kTerms];
 
-  void prepare(Lanes time_constant, Lanes half_length) {
-    tau = time_constant;
-    Lanes pivot = tau + half_length;
+  void prepare(Lanes tau, double half_length) {
+    Lanes pivot = tau + Lanes(half_length);
     inverse[0] = Lanes(1.0) / pivot;
-    upper[0] = half_length * Lanes(1.0 / 3) * inverse[0];
+    upper[0] = Lanes(half_length / 3) * inverse[0];
     for (int j = 1; j < kTerms; ++j) {
-      lower[j] = half_length * Lanes(1.0 / (2 * j - 1)) * inverse[j - 1];
-      const Lanes above = half_length * Lanes(1.0 / (2 * j + 1));
-      pivot = mul_add(lower[j], above, tau);
+      lower[j] = Lanes(half_length / (2 * j - 1)) * inverse[j - 1];
+      pivot = mul_add(lower[j], Lanes(half_length / (2 * j + 1)), tau);
       inverse[j] = Lanes(1.0) / pivot;
-      upper[j] = half_length * Lanes(1.0 / (2 * j + 3)) * inverse[j];
+      upper[j] = Lanes(half_length / (2 * j + 3)) * inverse[j];
     }
   }
 
-  /// v' for the input e from v(start).
-  Series slope(const Series& e, Lanes start) const {
-    Series w;
-    w.c[0] = e.c[0] - start;
-    for (int j = 1; j < kTerms; ++j) w.c[j] = mul_sub_from(lower[j], w.c[j - 1], e.c[j]);
-    w.c[kDegree] = w.c[kDegree] * inverse[kDegree];
-    for (int j = kDegree - 1; j >= 0; --j) w.c[j] = mul_add(upper[j], w.c[j + 1], w.c[j] * inverse[j]);
-    return w;
+  /// Forward elimination for the input e from v(start).
+  void eliminate(Series& g, const Series& e, Lanes start) const {
+    Lanes below = g[0] = e[0] - start;
+    for (int j = 1; j < kTerms; ++j) g[j] = below = mul_sub_from(lower[j], below, e[j]);
+  }
+
+  /// Coefficient k of v' after elimination, from the one above, 0 above the last.
+  Lanes substitute(const Series& g, int k, Lanes above) const {
+    return mul_add(upper[k], above, g[k] * inverse[k]);
+  }
+
+  /// w = v' for the input e from v(start). w may be e.
+  void set_slope(Series& w, const Series& e, Lanes start) const {
+    eliminate(w, e, start);
+    Lanes above = 0.0;
+    for (int k = kDegree; k >= 0; --k) w[k] = above = substitute(w, k, above);
   }
 };
 

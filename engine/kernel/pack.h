@@ -6,8 +6,9 @@
 
 namespace portrait::kernel {
 
-inline constexpr int kMaxLanes = 16;
-inline constexpr int kMaxPanels = 24;
+inline constexpr int kMaxLanes = 8;
+inline constexpr int kMaxPanels = 64;
+inline constexpr int kMaxFilters = 16;
 
 enum class PlantKind { dipdt, ipdt, fotd };
 
@@ -15,7 +16,18 @@ enum class PlantKind { dipdt, ipdt, fotd };
 enum class SetpointRun {
   from_disturbance,  ///< from the disturbance run, by g0, g1, g2
   lag,               ///< a run of its own behind the prefilter (1 + b_r s)/(1 + a1 s)
+  second_order,      ///< a run of its own behind (1 + b_r s + c_r s^2)/(1 + a1 s + a2 s^2)
 };
+
+/// How a dead time is cut into panels, for all lanes alike: the first panel 2^-graded of it, each further one as long as all
+/// before it together; then every panel in halves, `halved` times.
+///
+///     graded = 0: |----------------|      graded = 2: |---|---|-------|
+struct Mesh {
+  int graded;
+  int halved;
+};
+constexpr int panels_of(const Mesh& mesh) { return (mesh.graded + 1) << mesh.halved; }
 
 using PackColumn = double[kMaxLanes];
 
@@ -23,14 +35,14 @@ struct Pack {
   PlantKind plant;
   int n;  ///< filter order
   SetpointRun setpoint_run;
-  double horizon;  ///< dead times
-  int panels;      ///< a dead time is cut into so many, each lane at its own places
+  double horizon;         ///< dead times
+  Mesh mesh;              ///< while layers of the fast time constants matter, after every dead time anew
+  int layered_intervals;  ///< so many dead times; from then on `graded` is 0
 
   PackColumn kappa, integral_gain, delta, tau_1, tau_f;  ///< integral_gain = kappa/tau_i, 0 without integral action
   PackColumn g0, g1, g2;                                 ///< y_w = -(g0 int v + g1 v + g2 v')
-  PackColumn a1, b_r;
+  PackColumn a1, a2, b_r, c_r;
   PackColumn y_rest_w, u_rest_w, y_rest_d, u_rest_d;
-  double panel_length[kMaxPanels][kMaxLanes];  ///< from left to right, sum 1
 };
 
 /// One step's measures.
@@ -48,11 +60,31 @@ struct PackResult {
   PackColumn dead_times;  ///< simulated
 };
 
-/// Number of settings a pack holds, and the run itself, of one instruction set.
+/// Open loops with one gain crossover and at least one integrator.
+struct MarginPack {
+  int integrators, plant_lags, n;
+  bool highest_at_ends;  ///< beyond any frequency |L| is largest there or at infinity: n = 0 on ipdt and fotd
+
+  PackColumn n0, n1, n2, tau_1, tau_f;  ///< a time constant that the loop lacks is 1
+  PackColumn end_gain;                  ///< |L| at infinity, below 1
+  PackColumn crossover_guess;
+};
+
+struct MarginResult {
+  PackColumn phase;  ///< arg L at the gain crossover, rad; the loop is stable when it is above -pi
+  PackColumn crossover;
+  PackColumn Ms, Ms_omega, Mt, Mt_omega;
+  PackColumn gain_above,
+      gain_below;   ///< |L| where arg L = -pi: the largest below 1, the smallest above; 0 and inf: none
+  PackColumn done;  ///< 0 where the search was given up
+};
+
+/// What one instruction set offers.
 struct Implementation {
   const char* name;
-  int lanes;
+  int lanes;  ///< settings a pack holds
   void (*run)(const Pack&, PackResult&);
+  void (*find_margins)(const MarginPack&, MarginResult&);
 };
 
 }  // namespace portrait::kernel

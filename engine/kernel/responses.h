@@ -1,9 +1,9 @@
 /// Both step responses of many settings, measured: the fast path's front door.
 ///
-/// Settings go in by the pack. Each lane is cut into panels after its own time constants; a lane whose series have not
-/// died out is run again on finer panels, so the result is resolved whatever the constants are.
-/// shape     up to `implementation.lanes` settings of one family
-/// domain    n = 0 .. kMaxFilterOrder, every plant; prefilter `full` with n = 0 is refused, see `kernel_takes`
+/// Settings of a kind go side by side into packs. A dead time is cut into panels after the setting's own time constants; a
+/// setting whose series have not died out is run again on finer panels, so the result is resolved whatever the constants are.
+/// shape     any number of settings of one family
+/// domain    every plant, prefilter and n = 0 .. kMaxFilterOrder
 /// accuracy  against the reference, tau_f and tau_1 from 0.01: IAE 1e-8; TV, and TV0 to TV2 as parts of TV, 1e-7. Where TV
 ///           is large and TV2 small, as behind a step through a strong derivative, TV2 has fewer digits of its own:
 ///           tests/engine/kernel/many_responses_test.cpp
@@ -21,23 +21,15 @@
 
 namespace portrait::kernel {
 
-/// Integrals of the error that the catalogue does not name yet.
-struct ErrorIntegrals {
-  double ISE, ITAE, ITSE;
-};
-
-struct LaneMeasured {
+struct Measured {
   Status status = Status::not_computed;
-  MeasureRow measures;  ///< those of the responses; Ms and Mt are left to engine/loop/sensitivity.h
-  ErrorIntegrals w, d;
+  MeasureRow measures;    ///< those of the responses, the others NaN
+  double horizon = 0;     ///< dead times simulated; 0 when unstable
   bool resolved = false;  ///< false: not even the finest panels resolve this setting
 };
 
-/// Whether the kernel has this family: all but n = 0 behind `full`, whose second-order prefilter does not cancel.
-bool kernel_takes(const LoopFamily& family);
-
-/// REQUIRES: kernel_takes(family); settings valid, stable, at least one and at most implementation.lanes; as many results.
+/// REQUIRES: settings valid and stable; as many results.
 void measure_responses(const Implementation& implementation, const LoopFamily& family,
-                       std::span<const Setting> settings, Horizon horizon, std::span<LaneMeasured> results);
+                       std::span<const Setting> settings, Horizon horizon, std::span<Measured> results);
 
 }  // namespace portrait::kernel

@@ -1,6 +1,7 @@
 #include "engine/loop/open_loop.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace portrait {
@@ -85,6 +86,25 @@ std::vector<double> gain_crossovers(const OpenLoop& loop) {
 std::vector<double> gain_extremes(const OpenLoop& loop) {
   const Polynomial n = numerator_squared(loop), d = denominator_squared(loop);
   return roots_of_x(difference(product(derivative(n), d), product(n, derivative(d))));
+}
+
+/// arg L has the slope n1 (n0 + n2 x)/|N|^2 - 1 - sum_i T_i/(1 + T_i^2 x), x = omega^2; equal lags share a
+/// denominator.
+std::vector<double> phase_extremes(const OpenLoop& loop) {
+  const auto& [n0, n1, n2] = loop.numerator;
+  const Polynomial n = numerator_squared(loop);
+  std::map<double, int> lags;
+  for (const double T : loop.lags) ++lags[T];
+  const auto denominators_but = [&](double left_out) {
+    Polynomial d{1};
+    for (const auto& [T, count] : lags)
+      if (T != left_out) d = product(d, {1, T * T});
+    return d;
+  };
+  Polynomial slope = product(difference({n1 * n0, n1 * n2}, n), denominators_but(kNaN));
+  for (const auto& [T, count] : lags)
+    slope = difference(slope, product(product(n, {count * T}), denominators_but(T)));
+  return roots_of_x(slope);
 }
 
 double high_frequency_gain(const OpenLoop& loop) {

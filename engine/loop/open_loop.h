@@ -43,6 +43,9 @@ std::vector<double> gain_crossovers(const OpenLoop& loop);
 /// Frequencies at which |L| has an extreme, increasing.
 std::vector<double> gain_extremes(const OpenLoop& loop);
 
+/// Frequencies at which arg L turns, increasing: from the last one on it falls for ever.
+std::vector<double> phase_extremes(const OpenLoop& loop);
+
 /// lim |L(j omega)| as omega -> infinity: 0 for a retarded loop; a neutral loop (ideal derivative on ipdt:
 /// delta, on fotd: delta/tau_1) has a limit above 0, and is stable only below 1.
 double high_frequency_gain(const OpenLoop& loop);

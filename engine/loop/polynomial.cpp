@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
 namespace portrait {
 namespace {
 
@@ -78,6 +80,24 @@ std::vector<double> positive_sign_changes(const Polynomial& p_given) {
   std::vector<double> roots;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
     if ((value(p, ends[i]) < 0) != (value(p, ends[i + 1]) < 0)) roots.push_back(bisected(p, ends[i], ends[i + 1]));
+  return roots;
+}
+
+std::vector<std::complex<double>> complex_roots(const Polynomial& p_given) {
+  const Polynomial p = stripped(p_given);
+  if (p.size() < 2) return {};
+  const auto degree = static_cast<Eigen::Index>(p.size()) - 1;
+  // Roots of about size 1 keep the matrix balanced.
+  const double size = std::pow(std::abs(p.front() / p.back()), 1.0 / static_cast<double>(degree));
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(degree, degree);
+  for (Eigen::Index i = 0; i < degree; ++i) {
+    if (i > 0) companion(i, i - 1) = 1;
+    companion(i, degree - 1) =
+        -p[static_cast<std::size_t>(i)] / p.back() * std::pow(size, static_cast<double>(i - degree));
+  }
+  const Eigen::VectorXcd values = companion.eigenvalues();
+  std::vector<std::complex<double>> roots;
+  for (Eigen::Index i = 0; i < degree; ++i) roots.push_back(size * values(i));
   return roots;
 }
 

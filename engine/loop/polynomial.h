@@ -1,6 +1,7 @@
 /// Real polynomials of one variable: small, dense, coefficients from the lowest power up.
 #pragma once
 
+#include <complex>
 #include <vector>
 
 namespace portrait {
@@ -17,5 +18,9 @@ Polynomial difference(const Polynomial& p, const Polynomial& q);
 /// accuracy  a few units in the last place, as far as p can be evaluated: tests/engine/loop/polynomial_test.cpp;
 ///           a root of even order is no sign change and is left out
 std::vector<double> positive_sign_changes(const Polynomial& p);
+
+/// All roots but those at 0, in no order, as eigenvalues of the companion matrix.
+/// accuracy  that of the eigenvalues: a root of multiplicity m has only one m-th of the digits
+std::vector<std::complex<double>> complex_roots(const Polynomial& p);
 
 }  // namespace portrait

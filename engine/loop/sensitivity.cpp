@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <utility>
 
 #include "engine/base/check.h"
 
@@ -82,6 +83,7 @@ class PeakSearch {
       add(a, cut);
       add(cut, b);
     }
+    refine();
     return best_;
   }
 
@@ -95,6 +97,34 @@ class PeakSearch {
 
   void offer(const Peak& peak) {
     if (peak.value > best_.value) best_ = peak;
+  }
+
+  /// The search ends when no value promises more, which leaves the place of a flat peak open: there the slope is 0.
+  void refine() {
+    if (best_.omega == 0 || best_.omega == kInf) return;
+    const bool right = slope(best_.omega) > 0;
+    double before = best_.omega, beyond = before, step = 1e-9;
+    do {
+      before = std::exchange(beyond, right ? beyond * (1 + step) : beyond / (1 + step));
+      step *= 2;
+    } while (step < 1 && (slope(beyond) > 0) == right);
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (before + beyond);
+      ((slope(middle) > 0) == right ? before : beyond) = middle;
+    }
+    const double found = value(before);
+    if (found >= best_.value * (1 - kTolerance)) best_ = {std::max(found, best_.value), before};
+  }
+
+  double value(double omega) const {
+    const std::complex<double> L = response_at(loop_, omega);
+    return (function_ == Function::sensitivity ? 1 : std::abs(L)) / std::abs(1.0 + L);
+  }
+
+  /// Of log |S| or log |T|.
+  double slope(double omega) const {
+    const std::complex<double> L = response_at(loop_, omega), rate = log_slope_at(loop_, omega);
+    return (function_ == Function::sensitivity ? -rate * L / (1.0 + L) : rate / (1.0 + L)).real();
   }
 
   /// Over all omega >= a, from |1 + L| >= 1 - |L|.

@@ -6,6 +6,9 @@ namespace portrait {
 namespace {
 
 constexpr std::string_view kIae = "integral of |w - y| from 0 to the horizon, w the unfiltered setpoint";
+constexpr std::string_view kIse = "integral of (w - y)^2 from 0 to the horizon, w the unfiltered setpoint";
+constexpr std::string_view kItae = "integral of t |w - y| from 0 to the horizon, w the unfiltered setpoint";
+constexpr std::string_view kItse = "integral of t (w - y)^2 from 0 to the horizon, w the unfiltered setpoint";
 constexpr std::string_view kTv = "sum of |increments| from 0- to the horizon, the jump at 0+ included";
 constexpr std::string_view kTv0 = "total variation less |x(inf) - x(0-)|: deviation from a monotonic response";
 constexpr std::string_view kTv1 = "total variation less that of the best shape with at most one extreme";
@@ -16,6 +19,12 @@ constexpr std::string_view kMax = "largest |x(t)| from 0 to the horizon";
 constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
     {"IAE_w", "integral of absolute error, setpoint step", kIae, Unit::output_time, 'w'},
     {"IAE_d", "integral of absolute error, disturbance step", kIae, Unit::output_time, 'd'},
+    {"ISE_w", "integral of squared error, setpoint step", kIse, Unit::output2_time, 'w'},
+    {"ISE_d", "integral of squared error, disturbance step", kIse, Unit::output2_time, 'd'},
+    {"ITAE_w", "integral of time times absolute error, setpoint step", kItae, Unit::output_time2, 'w'},
+    {"ITAE_d", "integral of time times absolute error, disturbance step", kItae, Unit::output_time2, 'd'},
+    {"ITSE_w", "integral of time times squared error, setpoint step", kItse, Unit::output2_time2, 'w'},
+    {"ITSE_d", "integral of time times squared error, disturbance step", kItse, Unit::output2_time2, 'd'},
     {"TV_yw", "total variation of y, setpoint step", kTv, Unit::output, 'w'},
     {"TV0_yw", "deviation of y from monotonicity, setpoint step", kTv0, Unit::output, 'w'},
     {"TV1_yw", "deviation of y from a one-pulse shape, setpoint step", kTv1, Unit::output, 'w'},
@@ -38,6 +47,21 @@ constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
     {"u_max_d", "largest |u|, disturbance step", kMax, Unit::input, 'd'},
     {"Ms", "peak of the sensitivity", "sup over omega > 0 of |1/(1 + L(j omega))|", Unit::one, '-'},
     {"Mt", "peak of the complementary sensitivity", "sup over omega > 0 of |L/(1 + L)|", Unit::one, '-'},
+    {"Ms_omega", "frequency of the peak of the sensitivity",
+     "omega at which |1/(1 + L(j omega))| is largest, in radians; 0 or inf for its limit there", Unit::per_time,
+     '-'},
+    {"Mt_omega", "frequency of the peak of the complementary sensitivity",
+     "omega at which |L/(1 + L)| is largest, in radians; 0 or inf for its limit there", Unit::per_time, '-'},
+    {"GM", "gain margin", "smallest factor above 1 on L at which the loop loses stability", Unit::one, '-'},
+    {"GM_low", "lower gain margin", "largest factor below 1 on L at which the loop loses stability; 0: none does",
+     Unit::one, '-'},
+    {"PM", "phase margin", "smallest |arg(-L(j omega))| where |L| = 1; inf where |L| is never 1", Unit::degree,
+     '-'},
+    {"DM", "delay margin", "smallest further dead time at which the loop loses stability; inf: none does",
+     Unit::time, '-'},
+    {"noise_gain", "amplification of measurement noise",
+     "RMS of u per RMS of white measurement noise held over the sampling time; inf for an ideal derivative",
+     Unit::input_per_output, '-'},
 }};
 
 }  // namespace

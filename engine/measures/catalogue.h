@@ -1,7 +1,8 @@
 /// The measures: one number per setting. Names are public; order here is the order of columns everywhere.
 ///
 /// Suffix _w: unit setpoint step at t = 0. Suffix _d: unit input-disturbance step at t = 0, before the dead
-/// time. unit      normalised (dimensionless); `scale` in engine/loop/real_plant.h leads to real units
+/// time.
+/// unit      normalised (dimensionless); `scale` in engine/loop/real_plant.h leads to real units
 #pragma once
 
 #include <array>
@@ -14,6 +15,12 @@ namespace portrait {
 enum class Measure {
   IAE_w,
   IAE_d,
+  ISE_w,
+  ISE_d,
+  ITAE_w,
+  ITAE_d,
+  ITSE_w,
+  ITSE_d,
   TV_yw,
   TV0_yw,
   TV1_yw,
@@ -36,15 +43,29 @@ enum class Measure {
   u_max_d,
   Ms,
   Mt,
+  Ms_omega,
+  Mt_omega,
+  GM,
+  GM_low,
+  PM,
+  DM,
+  noise_gain,
 };
-inline constexpr std::size_t kMeasureCount = 24;
+inline constexpr std::size_t kMeasureCount = 37;
 
 /// What a measure is made of, which fixes its real unit.
 enum class Unit {
-  one,          ///< a pure number
-  output,       ///< unit of y
-  output_time,  ///< unit of y times time
-  input,        ///< unit of u
+  one,               ///< a pure number
+  output,            ///< unit of y
+  output_time,       ///< unit of y times time
+  output_time2,      ///< unit of y times time squared
+  output2_time,      ///< unit of y squared times time
+  output2_time2,     ///< unit of y squared times time squared
+  input,             ///< unit of u
+  input_per_output,  ///< unit of u per unit of y
+  time,              ///< time
+  per_time,          ///< radians per time
+  degree,            ///< of an angle
 };
 
 struct MeasureInfo {

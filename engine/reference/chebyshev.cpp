@@ -94,6 +94,18 @@ Series antiderivative(const Series& c) {
   return s;
 }
 
+/// T_i T_j = (T_{i+j} + T_{|i-j|})/2
+Series product(const Series& f, const Series& g) {
+  Series p = Series::Zero(f.size() + g.size() - 1);
+  for (Eigen::Index i = 0; i < f.size(); ++i)
+    for (Eigen::Index j = 0; j < g.size(); ++j) {
+      const double half = 0.5 * f(i) * g(j);
+      p(i + j) += half;
+      p(std::abs(i - j)) += half;
+    }
+  return p;
+}
+
 Series restricted(const Series& c, double from, double to) {
   if (c.size() == 1) return c;
   thread_local Points points;

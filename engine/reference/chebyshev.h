@@ -25,6 +25,9 @@ Series derivative(const Series& c);
 /// The antiderivative that is 0 at x = -1, one coefficient longer.
 Series antiderivative(const Series& c);
 
+/// f(x) g(x). REQUIRES: neither is empty.
+Series product(const Series& f, const Series& g);
+
 /// The same function on [from, to] within [-1, 1], as a series of its own.
 Series restricted(const Series& c, double from, double to);
 

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <span>
 
-#include "engine/loop/sensitivity.h"
+#include "engine/loop/loop_measures.h"
 #include "engine/loop/stability.h"
+#include "engine/measures/step_measures.h"
 #include "engine/measures/variation.h"
+#include "engine/reference/error_integrals.h"
 
 namespace portrait::reference {
 namespace {
@@ -32,26 +34,6 @@ double largest_magnitude(std::span<const double> points) {
   return largest;
 }
 
-/// Integral of |target - y|.
-double absolute_error(const std::vector<Piece>& pieces, double target, double noise) {
-  double sum = 0;
-  for (const Piece& piece : pieces) {
-    Series e = -piece.y;
-    e(0) += target;
-    const Series integral = antiderivative(e);
-    std::vector<double> ends = sign_changes(e, noise);
-    ends.push_back(1);
-    double last = 0, over_panel = 0;
-    for (const double x : ends) {
-      const double here = value(integral, x);
-      over_panel += std::abs(here - last);
-      last = here;
-    }
-    sum += 0.5 * piece.length * over_panel;
-  }
-  return sum;
-}
-
 /// Whether a signal stays near its rest over the last dead time, counted from a whole number of dead times.
 bool is_settled(const std::vector<Piece>& pieces, SeriesOf signal, double noise, double at_rest, double horizon) {
   const auto deviation = [&](std::span<const double> points) {
@@ -67,24 +49,17 @@ bool is_settled(const std::vector<Piece>& pieces, SeriesOf signal, double noise,
   return at_end <= kSettlingBand * deviation(turning_points(pieces, signal, noise));
 }
 
-/// Where the measures of one step stand in the catalogue.
-struct Columns {
-  Measure IAE, y_max, u_max;
-  std::array<Measure, 4> of_y, of_u;  ///< TV, TV0, TV1, TV2
-};
+constexpr std::array<StepMeasures, kSteps> kMeasuresOf = {kSetpointMeasures, kDisturbanceMeasures};
 
-constexpr std::array<Columns, kSteps> kColumns = {{
-    {Measure::IAE_w,
-     Measure::y_max_w,
-     Measure::u_max_w,
-     {Measure::TV_yw, Measure::TV0_yw, Measure::TV1_yw, Measure::TV2_yw},
-     {Measure::TV_uw, Measure::TV0_uw, Measure::TV1_uw, Measure::TV2_uw}},
-    {Measure::IAE_d,
-     Measure::y_max_d,
-     Measure::u_max_d,
-     {Measure::TV_yd, Measure::TV0_yd, Measure::TV1_yd, Measure::TV2_yd},
-     {Measure::TV_ud, Measure::TV0_ud, Measure::TV1_ud, Measure::TV2_ud}},
-}};
+/// Without integral action an error may remain for ever: then its integrals do not exist.
+void measure_error(const StepResponse& r, double target, const StepMeasures& names, MeasureRow& row) {
+  if (r.at_rest.y != target) return;
+  const ErrorIntegrals of_error = error_integrals(r.pieces, target, r.y_noise);
+  row[names.IAE] = of_error.IAE;
+  row[names.ISE] = of_error.ISE;
+  row[names.ITAE] = of_error.ITAE;
+  row[names.ITSE] = of_error.ITSE;
+}
 
 void measure_signal(std::span<const double> points, double at_rest, const std::array<Measure, 4>& columns,
                     Measure largest, MeasureRow& row) {
@@ -95,12 +70,10 @@ void measure_signal(std::span<const double> points, double at_rest, const std::a
 }
 
 void measure_step(const StepResponse& r, Step step, MeasureRow& row) {
-  const Columns& columns = kColumns[static_cast<std::size_t>(step)];
-  const double target = step == kSetpoint ? 1 : 0;
-  // Without integral action an error may remain for ever: then its integral does not exist.
-  row[columns.IAE] = r.at_rest.y == target ? absolute_error(r.pieces, target, r.y_noise) : kNaN;
-  measure_signal(turning_points(r.pieces, &Piece::y, r.y_noise), r.at_rest.y, columns.of_y, columns.y_max, row);
-  measure_signal(turning_points(r.pieces, &Piece::u, r.u_noise), r.at_rest.u, columns.of_u, columns.u_max, row);
+  const StepMeasures& names = kMeasuresOf[static_cast<std::size_t>(step)];
+  measure_error(r, step == kSetpoint ? 1 : 0, names, row);
+  measure_signal(turning_points(r.pieces, &Piece::y, r.y_noise), r.at_rest.y, names.of_y, names.y_max, row);
+  measure_signal(turning_points(r.pieces, &Piece::u, r.u_noise), r.at_rest.u, names.of_u, names.u_max, row);
 }
 
 bool is_settled(const Response& response) {
@@ -113,21 +86,19 @@ bool is_settled(const Response& response) {
 
 }  // namespace
 
-Measured measure(const Loop& loop, const Response& response) {
+Measured measure(const Loop& loop, const Response& response, std::optional<double> sampling) {
   Measured measured;
   measured.horizon = response.horizon;
   measured.status = is_settled(response) ? Status::settled : Status::not_settled;
   measure_step(response.steps[kSetpoint], kSetpoint, measured.measures);
   measure_step(response.steps[kDisturbance], kDisturbance, measured.measures);
-  const OpenLoop open = open_loop(loop);
-  measured.measures[Measure::Ms] = sensitivity_peak(open).value;
-  measured.measures[Measure::Mt] = complementary_sensitivity_peak(open).value;
+  measure_loop(loop, sampling, measured.measures);
   return measured;
 }
 
-Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy) {
+Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy, std::optional<double> sampling) {
   if (!is_stable(open_loop(loop))) return {.status = Status::unstable, .measures = {}, .horizon = 0};
-  return measure(loop, simulate(loop, horizon, accuracy));
+  return measure(loop, simulate(loop, horizon, accuracy), sampling);
 }
 
 }  // namespace portrait::reference

@@ -1,8 +1,10 @@
 /// All measures of one loop, by the reference simulation: definitions taken literally, nothing sampled.
 ///
-/// Extremes are sign changes of y' and u', integrals of |e| are split at the sign changes of e and taken from
-/// antiderivatives. The error is that of the simulation.
+/// Extremes are sign changes of y' and u'; integrals of the error are taken in error_integrals.h. The error is that
+/// of the simulation.
 #pragma once
+
+#include <optional>
 
 #include "engine/base/status.h"
 #include "engine/loop/horizon.h"
@@ -18,13 +20,11 @@ struct Measured {
   double horizon = 0;   ///< dead times really simulated; 0 when unstable
 };
 
-/// Within this part of its largest deviation from rest a signal counts as settled, over the whole last dead time.
-inline constexpr double kSettlingBand = 0.01;
-
-/// REQUIRES: the loop is valid.
-Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {});
+/// `sampling` in dead times, for noise_gain, which is NaN without it. REQUIRES: the loop is valid.
+Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {},
+                 std::optional<double> sampling = std::nullopt);
 
 /// The same from a response at hand. REQUIRES: `response` is that of a stable `loop`.
-Measured measure(const Loop& loop, const Response& response);
+Measured measure(const Loop& loop, const Response& response, std::optional<double> sampling = std::nullopt);
 
 }  // namespace portrait::reference

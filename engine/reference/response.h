@@ -7,7 +7,8 @@
 /// halved and the run starts over: the result is resolved everywhere, or the simulation fails loudly.
 ///
 /// unit      time in dead times, u and y normalised
-/// accuracy  IAE 1e-9, TV 1e-7 relative, for tau_f and tau_1 down to 1e-4: tests/engine/reference/
+/// accuracy  integrals of the error 1e-9, TV 1e-7 relative, for tau_f and tau_1 down to 1e-4:
+///           tests/engine/reference/
 /// cost      some linear maps a panel, made once, and a few small matrix products a panel and dead time
 #pragma once
 

@@ -1,15 +1,12 @@
 #include "engine/sweep/sweep.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
-#include <stdexcept>
 
-#include <fmt/format.h>
 #include <omp.h>
 
-#include "engine/loop/parameters.h"
-#include "engine/reference/measure.h"
-#include "engine/sweep/tile_queue.h"
+#include "engine/base/check.h"
 
 namespace portrait {
 namespace {
@@ -33,17 +30,17 @@ class FirstFailure {
   std::atomic<bool> happened_ = false;
 };
 
-void measure_one(const Loop& loop, Horizon horizon, std::size_t entry, MeasureColumns& columns) try {
-  const reference::Measured measured = reference::measure(loop, horizon);
-  columns.set(entry, measured.status, measured.measures);
-} catch (const std::exception& failure) {
-  throw std::runtime_error(fmt::format("{}\nreproduce: {}", failure.what(), simulate_command(loop)));
+bool keeps(const std::vector<Measure>& measures, Measure measure) {
+  return std::find(measures.begin(), measures.end(), measure) != measures.end();
 }
 
 class Worker {
  public:
-  Worker(const SweepJob& job, TileQueue& queue, FirstFailure& failure, std::mutex& progress)
-      : job_(job), queue_(queue), failure_(failure), progress_(progress) {}
+  Worker(const SweepJob& job, TileQueue& queue, FirstFailure& failure, std::mutex& progress,
+         std::atomic<std::uint64_t>& left_over)
+      : job_(job), queue_(queue), failure_(failure), progress_(progress), left_over_(left_over) {
+    if (keeps(job.measures, Measure::noise_gain)) sampling_ = job.sampling;
+  }
 
   /// An exception must not leave a parallel region.
   void run() {
@@ -57,16 +54,21 @@ class Worker {
       }
     } catch (...) {
       failure_.keep(std::current_exception());
+      queue_.close();
     }
   }
 
  private:
   bool is_stopped() const { return failure_.happened() || (job_.stop && job_.stop->load()); }
 
-  void measure(const Slice& slice) const {
-    const std::span settings(slice.tile->settings);
-    measure_settings(job_.family, job_.horizon, settings.subspan(slice.first, slice.count), slice.first,
-                     slice.tile->columns);
+  void measure(const Slice& slice) {
+    const auto settings = std::span(slice.tile->settings).subspan(slice.first, slice.count);
+    measured_.resize(slice.count);
+    measure_settings(job_.method, job_.family, job_.horizon, sampling_, settings, measured_);
+    for (std::size_t i = 0; i < slice.count; ++i) {
+      slice.tile->columns.set(slice.first + i, measured_[i].status, measured_[i].measures);
+      if (measured_[i].method != job_.method) ++left_over_;
+    }
   }
 
   void report() const {
@@ -79,31 +81,30 @@ class Worker {
   TileQueue& queue_;
   FirstFailure& failure_;
   std::mutex& progress_;
+  std::atomic<std::uint64_t>& left_over_;
+  std::optional<double> sampling_;         ///< only where noise_gain is kept
+  std::vector<SettingMeasured> measured_;  ///< of the slice in hand
 };
 
 }  // namespace
 
 int usual_threads() { return omp_get_max_threads(); }
 
-std::string_view sweep_method() { return "reference"; }
-
-void measure_settings(const LoopFamily& family, Horizon horizon, std::span<const Setting> settings,
-                      std::size_t first, MeasureColumns& columns) {
-  for (std::size_t i = 0; i < settings.size(); ++i) measure_one({family, settings[i]}, horizon, first + i, columns);
-}
-
 SweepOutcome sweep(const SweepJob& job) {
+  PORTRAIT_CHECK(job.sampling || !keeps(job.measures, Measure::noise_gain));
   const auto begin = std::chrono::steady_clock::now();
   const int threads = job.threads > 0 ? job.threads : usual_threads();
-  TileQueue queue(job.measures, job.tile_count, job.settings_of, job.store);
+  TileQueue queue(job.measures, job.tile_count, job.settings_of, job.prepare);
   FirstFailure failure;
   std::mutex progress;
+  std::atomic<std::uint64_t> left_over = 0;
 #pragma omp parallel num_threads(threads)
-  Worker(job, queue, failure, progress).run();
+  Worker(job, queue, failure, progress, left_over).run();
   failure.rethrow();
 
   SweepOutcome outcome;
   outcome.settings_measured = queue.settings_measured();
+  outcome.settings_by_reference = job.method == Method::reference ? outcome.settings_measured : left_over.load();
   outcome.tiles_stored = queue.tiles_stored();
   outcome.complete = outcome.tiles_stored == job.tile_count;
   outcome.threads = threads;

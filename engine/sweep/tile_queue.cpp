@@ -4,16 +4,22 @@
 
 namespace portrait {
 
+void TileQueue::begin_tile() {
+  std::vector<Setting> settings = settings_of_(begun_);
+  const std::size_t count = settings.size();
+  current_ = std::make_shared<Tile>(Tile{begun_, std::move(settings), MeasureColumns(measures_, count), count, {}});
+  ++begun_;
+  cut_ = 0;
+}
+
 std::optional<Slice> TileQueue::next() {
-  const std::scoped_lock lock(mutex_);
-  if (!current_ || cut_ == current_->settings.size()) {
-    if (begun_ == tile_count_) return std::nullopt;
-    std::vector<Setting> settings = settings_of_(begun_);
-    const std::size_t count = settings.size();
-    current_ = std::make_shared<Tile>(Tile{begun_, std::move(settings), MeasureColumns(measures_, count), count});
-    ++begun_;
-    cut_ = 0;
-  }
+  std::unique_lock lock(mutex_);
+  // Others may begin the tile this one waits for, and cut it up: then the question is the same again.
+  const auto is_cut_up = [&] { return !current_ || cut_ == current_->settings.size(); };
+  stored_one_.wait(
+      lock, [&] { return closed_ || !is_cut_up() || begun_ == tile_count_ || begun_ - stored_ < kTilesInMemory; });
+  if (closed_ || (is_cut_up() && begun_ == tile_count_)) return std::nullopt;
+  if (is_cut_up()) begin_tile();
   const std::size_t count = std::min(kSliceSettings, current_->settings.size() - cut_);
   const Slice slice{current_, cut_, count};
   cut_ += count;
@@ -25,6 +31,9 @@ void TileQueue::finish(const Slice& slice) {
   measured_ += slice.count;
   slice.tile->unfinished -= slice.count;
   if (slice.tile->unfinished > 0) return;
+  lock.unlock();  // all of the tile's other slices are back: nobody else looks at it
+  slice.tile->store = prepare_(slice.tile->number, slice.tile->columns);
+  lock.lock();
   waiting_.emplace(slice.tile->number, slice.tile);
   if (!storing_) store_in_order(lock);
 }
@@ -35,11 +44,19 @@ void TileQueue::store_in_order(std::unique_lock<std::mutex>& lock) {
     const std::shared_ptr<Tile> ready = tile->second;
     waiting_.erase(tile);
     lock.unlock();  // others go on measuring while this thread stores
-    store_(ready->number, ready->columns);
+    ready->store();
+    ready->store = nullptr;
     lock.lock();
     ++stored_;
+    stored_one_.notify_all();
   }
   storing_ = false;
+}
+
+void TileQueue::close() {
+  const std::scoped_lock lock(mutex_);
+  closed_ = true;
+  stored_one_.notify_all();
 }
 
 std::uint64_t TileQueue::settings_measured() const {

@@ -1,11 +1,13 @@
 /// The order of work in a sweep, without threads of its own: tiles are cut into slices for the workers, and
 /// finished tiles leave in the order of their numbers, one at a time.
 ///
-/// Any number of threads may call `next` and `finish`. Only the tiles between the oldest unfinished and the
-/// newest begun are in memory. What is computed depends on the slice alone, and what is handed out on the
-/// tile numbers alone: the result has the same bits for any number of threads.
+/// Any number of threads may call `next` and `finish`. Only the tiles between the oldest not stored and the newest
+/// begun are in memory, `kTilesInMemory` at most: who asks for more waits, so that measuring does not run away from
+/// a slow disk. What is computed depends on the slice alone, and what is handed out on the tile numbers alone: the
+/// result has the same bits for any number of threads.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -19,12 +21,16 @@
 
 namespace portrait {
 
+/// Stores a tile that was prepared for it.
+using StoreStep = std::function<void()>;
+
 /// A tile on its way from settings to measures.
 struct Tile {
   std::uint64_t number = 0;
   std::vector<Setting> settings;
   MeasureColumns columns;
   std::size_t unfinished = 0;  ///< settings still to be measured
+  StoreStep store;             ///< once all are
 };
 
 /// Settings [first, first + count) of a tile: what one worker measures at a time.
@@ -37,41 +43,49 @@ struct Slice {
 class TileQueue {
  public:
   using SettingsOf = std::function<std::vector<Setting>(std::uint64_t tile)>;
-  using Store = std::function<void(std::uint64_t tile, const MeasureColumns& columns)>;
+  using Prepare = std::function<StoreStep(std::uint64_t tile, const MeasureColumns& columns)>;
+  static constexpr std::uint64_t kTilesInMemory = 64;
+  static constexpr std::size_t kSliceSettings = 128;
 
-  TileQueue(std::vector<Measure> measures, std::uint64_t tile_count, SettingsOf settings_of, Store store)
+  TileQueue(std::vector<Measure> measures, std::uint64_t tile_count, SettingsOf settings_of, Prepare prepare)
       : measures_(std::move(measures)),
         tile_count_(tile_count),
         settings_of_(std::move(settings_of)),
-        store_(std::move(store)) {}
+        prepare_(std::move(prepare)) {}
 
-  /// The next slice to measure; nothing when all are given out.
+  /// The next slice to measure; nothing when all are given out, or the queue is closed. Waits while too many tiles
+  /// are in memory. REQUIRES: every other slice is being measured by another thread, or finished.
   std::optional<Slice> next();
 
-  /// Takes a measured slice back, and stores every tile whose turn has come.
+  /// Takes a measured slice back. The last one of a tile prepares it, beside other threads; then every tile whose
+  /// turn has come is stored, by one thread at a time.
   void finish(const Slice& slice);
+
+  /// Gives out no more slices: a worker failed, and its slice will not come back.
+  void close();
 
   std::uint64_t settings_measured() const;
   std::uint64_t tiles_stored() const;
 
  private:
+  void begin_tile();
   void store_in_order(std::unique_lock<std::mutex>& lock);
-
-  static constexpr std::size_t kSliceSettings = 32;
 
   const std::vector<Measure> measures_;
   const std::uint64_t tile_count_;
   const SettingsOf settings_of_;
-  const Store store_;
+  const Prepare prepare_;
 
   mutable std::mutex mutex_;
-  std::shared_ptr<Tile> current_;                           ///< being cut into slices
-  std::size_t cut_ = 0;                                     ///< settings of `current_` given out
-  std::uint64_t begun_ = 0;                                 ///< tiles begun
-  std::uint64_t stored_ = 0;                                ///< tiles stored: all below this number
-  std::uint64_t measured_ = 0;                              ///< settings
-  bool storing_ = false;                                    ///< one thread is in `store_`
-  std::map<std::uint64_t, std::shared_ptr<Tile>> waiting_;  ///< measured, but an earlier tile is not
+  std::condition_variable stored_one_;  ///< or closed
+  std::shared_ptr<Tile> current_;       ///< being cut into slices
+  std::size_t cut_ = 0;                 ///< settings of `current_` given out
+  std::uint64_t begun_ = 0;             ///< tiles begun
+  std::uint64_t stored_ = 0;            ///< tiles stored: all below this number
+  std::uint64_t measured_ = 0;          ///< settings
+  bool storing_ = false;                ///< one thread is in a store step
+  bool closed_ = false;
+  std::map<std::uint64_t, std::shared_ptr<Tile>> waiting_;  ///< prepared, but an earlier tile is not stored
 };
 
 }  // namespace portrait

@@ -3,12 +3,13 @@
 
 build_packages=(
   g++ cmake ninja-build pkgconf            # compiler and build
-  libeigen3-dev libhdf5-dev libfmt-dev libxxhash-dev
+  libeigen3-dev libhdf5-dev libfmt-dev libxxhash-dev zlib1g-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
 )
 picture_packages=(gnuplot-nox)
 test_packages=(
   libgtest-dev librapidcheck-dev           # unit and property tests
+  libbenchmark-dev                         # benchmarks, each of which a test runs once
   python3 python3-xarray python3-netcdf4 python3-h5py netcdf-bin  # portraits read by others
   strace                                   # killing a sweep at a chosen system call
 )

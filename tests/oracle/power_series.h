@@ -72,20 +72,41 @@ inline Real at(const Signal& signal, Real t) {
   return value(signal[i].c, t - signal[i].start);
 }
 
-/// Integral of |target - f| over all pieces.
-inline Real integral_of_error(const Signal& signal, Real target) {
-  Real sum = 0;
+inline PowerSeries product(const PowerSeries& f, const PowerSeries& g) {
+  PowerSeries p(f.size() + g.size() - 1, 0);
+  for (std::size_t i = 0; i < f.size(); ++i)
+    for (std::size_t j = 0; j < g.size(); ++j) p[i + j] += f[i] * g[j];
+  return p;
+}
+
+/// Of the error e = target - f over all pieces.
+struct ErrorIntegrals {
+  Real IAE = 0, ISE = 0, ITAE = 0, ITSE = 0;
+};
+
+/// Integral over a piece of f with the sign that e has there, so that f = t e gives the one of t |e|.
+inline Real integral_with_sign_of(const PowerSeries& e, const PowerSeries& f, Real length) {
+  const PowerSeries integral = antiderivative(f);
+  std::vector<Real> ends = sign_changes(e, length);
+  ends.push_back(length);
+  Real last = 0, sum = 0;
+  for (const Real x : ends) {
+    sum += std::abs(value(integral, x) - last);
+    last = value(integral, x);
+  }
+  return sum;
+}
+
+inline ErrorIntegrals error_integrals(const Signal& signal, Real target) {
+  ErrorIntegrals sum;
   for (const PowerPiece& piece : signal) {
     PowerSeries e = piece.c;
     e[0] -= target;
-    const PowerSeries integral = antiderivative(e);
-    std::vector<Real> ends = sign_changes(e, piece.length);
-    ends.push_back(piece.length);
-    Real last = 0;
-    for (const Real x : ends) {
-      sum += std::abs(value(integral, x) - last);
-      last = value(integral, x);
-    }
+    const PowerSeries t = {piece.start, 1}, squared = product(e, e);
+    sum.IAE += integral_with_sign_of(e, e, piece.length);
+    sum.ITAE += integral_with_sign_of(e, product(t, e), piece.length);
+    sum.ISE += value(antiderivative(squared), piece.length);
+    sum.ITSE += value(antiderivative(product(t, squared)), piece.length);
   }
   return sum;
 }

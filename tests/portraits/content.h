@@ -30,7 +30,8 @@ std::string raw(const std::vector<Value>& values) {
 inline std::string grid_content(const Grid& grid) {
   std::string all = grid.title + grid.text + std::string(to_string(grid.family.plant)) +
                     std::string(to_string(grid.family.prefilter)) + std::to_string(grid.family.n);
-  all += raw(std::vector{grid.horizon.dead_times, grid.horizon.automatic ? 1.0 : 0.0}) + raw(grid.measures);
+  all += raw(std::vector{grid.sampling.value_or(0), grid.horizon.dead_times, grid.horizon.automatic ? 1.0 : 0.0}) +
+         raw(grid.measures);
   for (const Axis& axis : grid.axes) all += std::string(axis.name()) + raw(axis.values());
   for (const FixedParameter& fixed : grid.fixed)
     all += std::string(to_string(fixed.parameter)) + raw(std::vector{fixed.value});

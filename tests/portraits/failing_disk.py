@@ -8,12 +8,11 @@ usage: failing_disk.py SAMPLE_PORTRAIT    (the helper program that writes sample
 """
 
 import os
-import shutil
 import subprocess
-import sys
-import tempfile
 
-SIZES = "5,4,300"
+import traced
+from traced import SIZES
+
 RUNS = 25
 # The shell's process becomes the program's, so the name of the temporary file is known before it starts.
 ON_ITS_FILE = 'exec strace -D -qq -o /dev/null -P "$1.tmp-$$-0" -e trace=$3 -e inject=$3:$4 "$2" write $5 "$1"'
@@ -80,19 +79,14 @@ def check_lossy(program, folder, path, writes):
     assert noticed > 0
 
 
-def main():
-    program = sys.argv[1]
-    if shutil.which("strace") is None:
-        sys.exit("this test needs strace: install the package strace")
-    os.environ["ASAN_OPTIONS"] = "detect_leaks=0"  # the leak detector is a tracer too, and there can be only one
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "p.h5")
-        writes = calls_of(program, path, "pwrite64")
-        assert writes > 50, writes
-        check_full(program, folder, path, writes)
-        check_other_calls(program, folder, path)
-        check_lossy(program, folder, path, writes)
+def check(program, folder):
+    path = os.path.join(folder, "p.h5")
+    writes = calls_of(program, path, "pwrite64")
+    assert writes > 50, writes
+    check_full(program, folder, path, writes)
+    check_other_calls(program, folder, path)
+    check_lossy(program, folder, path, writes)
 
 
 if __name__ == "__main__":
-    main()
+    traced.run(check)

@@ -10,10 +10,10 @@ import os
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 
-SIZES = "5,4,300"
+import traced
+from traced import SIZES
+
 OLD_SIZES = "3,4"
 RUNS = 30
 CALLS = "pwrite64,ftruncate,fsync,rename,renameat2,link,unlink"
@@ -103,18 +103,13 @@ def check_replacing(program, folder):
         assert verified(program, path) in (old, whole), (call, number)
 
 
-def main():
-    program = sys.argv[1]
-    if shutil.which("strace") is None:
-        sys.exit("this test needs strace: install the package strace")
-    os.environ["ASAN_OPTIONS"] = "detect_leaks=0"  # the leak detector is a tracer too, and there can be only one
-    with tempfile.TemporaryDirectory() as folder:
-        check_new(program, folder)
-        check_replacing(program, folder)
-        check_linking(program, folder)
-        for name in os.listdir(folder):
-            assert name in ("new.h5", "old.h5", "spare.h5", "link.h5") or ".h5.tmp-" in name, name
+def check(program, folder):
+    check_new(program, folder)
+    check_replacing(program, folder)
+    check_linking(program, folder)
+    for name in os.listdir(folder):
+        assert name in ("new.h5", "old.h5", "spare.h5", "link.h5") or ".h5.tmp-" in name, name
 
 
 if __name__ == "__main__":
-    main()
+    traced.run(check)

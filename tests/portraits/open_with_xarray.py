@@ -32,7 +32,7 @@ def check_small(path):
 
 
 def check_values(portrait):
-    """Setting 6 is kappa = 0.24, tau_i = 10; IAE_w is the first measure of the catalogue, TV2_uw the tenth."""
+    """Setting 6 is kappa = 0.24, tau_i = 10; IAE_w has the number 1, TV2_uw 10 (sample.cpp)."""
     found = portrait.IAE_w.sel(kappa=0.24, tau_i=10)
     assert abs(found - (1 + 6 + 1 / 9)) < 1e-12, found
     found = portrait.TV2_uw.sel(kappa=0.25, method="nearest").sel(tau_i=math.inf)

@@ -40,7 +40,7 @@ TEST_F(Publish, FileThatCameMeanwhileIsRefusedAndUntouched) {
   const Grid grid = sample::small_grid();
   {
     PortraitWriter writer(in("p.h5"), grid, kProvenance);
-    writer.write(0, sample::columns(grid, 0));
+    writer.write(writer.encode(0, sample::columns(grid, 0)));
     put_bytes(in("p.h5"), "somebody's work");
     EXPECT_EQ(message_of<InputError>([&] { writer.publish({}); }),
               in("p.h5").string() + " exists already (--force replaces it)");
@@ -51,7 +51,7 @@ TEST_F(Publish, FileThatCameMeanwhileIsRefusedAndUntouched) {
 
 TEST_F(Publish, ReplacesWhenTold) {
   put_bytes(in("p.h5"), "somebody's work");
-  sample::write(in("p.h5"), sample::small_grid(), {0}, Existing::replace);
+  sample::write(in("p.h5"), sample::small_grid(), Existing::replace);
   EXPECT_EQ(PortraitReader(in("p.h5")).settings(), 12u);
   EXPECT_EQ(files_in_folder(), 1u);
 }
@@ -60,7 +60,7 @@ TEST_F(Publish, NothingHasTheNameBeforeAndNothingIsLeftWithout) {
   const Grid grid = sample::grid_of({2500});
   {
     PortraitWriter writer(in("p.h5"), grid, kProvenance);
-    writer.write(1, sample::columns(grid, 1));
+    writer.write(writer.encode(0, sample::columns(grid, 0)));
     EXPECT_EQ(writer.tiles_left(), 2u);
     EXPECT_FALSE(std::filesystem::exists(in("p.h5")));
   }
@@ -70,18 +70,19 @@ TEST_F(Publish, NothingHasTheNameBeforeAndNothingIsLeftWithout) {
 TEST_F(Publish, PublishingWithTilesLeftIsOurMistake) {
   const Grid grid = sample::grid_of({2500});
   PortraitWriter writer(in("p.h5"), grid, kProvenance);
-  writer.write(0, sample::columns(grid, 0));
+  writer.write(writer.encode(0, sample::columns(grid, 0)));
   EXPECT_THROW(writer.publish({}), BrokenPromise);
-  EXPECT_THROW(writer.write(0, sample::columns(grid, 0)), BrokenPromise) << "a tile written twice";
-  EXPECT_THROW(writer.write(1, sample::columns(sample::grid_of({7}), 0)), BrokenPromise)
+  EXPECT_THROW(writer.write(writer.encode(0, sample::columns(grid, 0))), BrokenPromise) << "a tile written twice";
+  EXPECT_THROW(writer.write(writer.encode(2, sample::columns(grid, 2))), BrokenPromise) << "a tile left out";
+  EXPECT_THROW(writer.write(writer.encode(1, sample::columns(sample::grid_of({7}), 0))), BrokenPromise)
       << "a tile of another size";
 }
 
 TEST_F(Publish, TwoWritersOfOneNameDoNotMeet) {
   const Grid grid = sample::small_grid();
   PortraitWriter first(in("p.h5"), grid, kProvenance), second(in("p.h5"), grid, kProvenance);
-  first.write(0, sample::columns(grid, 0));
-  second.write(0, sample::columns(grid, 0));
+  first.write(first.encode(0, sample::columns(grid, 0)));
+  second.write(second.encode(0, sample::columns(grid, 0)));
   first.publish({});
   EXPECT_THROW(second.publish({}), InputError);
   EXPECT_NO_THROW(verify(in("p.h5")));
@@ -98,6 +99,27 @@ TEST_F(Publish, UnwritableFolderIsNamedWithTheSystemsWords) {
   EXPECT_NE(message.find("/proc/portrait-test.h5.tmp-"), std::string::npos) << message;
   EXPECT_NE(message.find(": cannot create the file: HDF5: No such file or directory"), std::string::npos)
       << message;
+}
+
+/// The bytes of tile 1 of IAE_w stand in the file as they are, and HDF5 does not look at them again.
+TEST_F(Publish, AFileThatDoesNotReadBackIsNotPublished) {
+  const Grid grid = sample::grid_of({2500});
+  {
+    PortraitWriter writer(in("p.h5"), grid, kProvenance);
+    for (const std::uint64_t tile : {0, 1, 2}) writer.write(writer.encode(tile, sample::columns(grid, tile)));
+    const std::string path = writer.temporary_path().string(), bytes = bytes_of(path);
+    const EncodedTile tile = writer.encode(1, sample::columns(grid, 1));
+    const auto stored = tile.measures[0].stored();
+    const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(stored.data()), stored.size()));
+    ASSERT_NE(at, std::string::npos);
+    std::fstream(path, std::ios::in | std::ios::out | std::ios::binary)
+        .seekp(static_cast<std::streamoff>(at + 100))
+        .put('x');
+    EXPECT_EQ(message_of<StoreError>([&] { writer.publish({}); }),
+              in("p.h5").string() + ": not published, for it does not read back as written: " + path +
+                  ": IAE_w is damaged: the chunk of tile 1 has another checksum");
+  }
+  EXPECT_EQ(files_in_folder(), 0u);
 }
 
 TEST_F(Publish, DateOfSourceDateEpoch) {

@@ -1,5 +1,4 @@
 // What is written comes back, bit for bit, for every shape of grid.
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -42,7 +41,8 @@ std::map<std::string, std::string> digests(const std::filesystem::path& path) {
   return found;
 }
 
-// 1 x 5 and 5 x 1 have axes of one value; 2 x 1031 has rows longer than a tile, the last tile shorter than the rest.
+// 1 x 5 and 5 x 1 have axes of one value; 2 x 1031 has rows longer than a tile, the last tile shorter than the
+// rest.
 const std::vector<std::vector<std::uint64_t>> kShapes = {
     {},        {1},       {5},         {2500},      {3, 4},       {1, 5},        {5, 1},
     {2, 1031}, {37, 100}, {7, 11, 13}, {3, 2, 700}, {5, 3, 4, 6}, {11, 3, 7, 29}};
@@ -51,7 +51,7 @@ TEST_F(RoundTrip, EveryShapeInBothPrecisions) {
   for (const Precision precision : {Precision::real64, Precision::real32})
     for (const auto& shape : kShapes) {
       const Grid grid = sample::grid_of(shape, precision);
-      sample::write(in("p.h5"), grid, sample::tiles_in_order(grid), Existing::replace);
+      sample::write(in("p.h5"), grid, Existing::replace);
       PortraitReader portrait(in("p.h5"));
       EXPECT_EQ(portrait.settings(), setting_count(grid));
       EXPECT_EQ(grid_content(portrait.grid()), grid_content(grid));
@@ -87,6 +87,16 @@ TEST_F(RoundTrip, HorizonUntilSettled) {
   EXPECT_TRUE(PortraitReader(in("p.h5")).grid().horizon.automatic);
 }
 
+TEST_F(RoundTrip, Sampling) {
+  Grid grid = sample::small_grid();
+  sample::write(in("without.h5"), grid);
+  EXPECT_FALSE(PortraitReader(in("without.h5")).grid().sampling);
+  grid.sampling = 0.1;
+  grid.measures.push_back(Measure::noise_gain);
+  sample::write(in("p.h5"), grid);
+  EXPECT_EQ(PortraitReader(in("p.h5")).grid().sampling, 0.1);
+}
+
 TEST_F(RoundTrip, LongGridFileAndEmptyTitle) {
   Grid grid = sample::small_grid();
   grid.title.clear();
@@ -111,19 +121,23 @@ TEST_F(RoundTrip, EveryNanIsStoredAsTheSameNan) {
   MeasureColumns columns = sample::columns(grid, 0);
   columns.values[0] = {-kNaN, std::bit_cast<double>(0x7ff8dead0000beefULL)};
   PortraitWriter writer(in("p.h5"), grid, {.command_line = "", .method = ""});
-  writer.write(0, columns);
+  writer.write(writer.encode(0, columns));
   writer.publish({});
   EXPECT_EQ(raw(values_of(PortraitReader(in("p.h5")), Measure::IAE_w, 0, 2)), raw(std::vector{kNaN, kNaN}));
 }
 
-TEST_F(RoundTrip, OrderOfTilesDoesNotMatter) {
-  const Grid grid = sample::grid_of({11, 3, 7, 29});
-  std::vector<std::uint64_t> order = sample::tiles_in_order(grid);
-  ASSERT_GT(order.size(), 5u);
-  sample::write(in("straight.h5"), grid, order);
-  std::shuffle(order.begin(), order.end(), std::mt19937(2));
-  sample::write(in("shuffled.h5"), grid, order);
-  EXPECT_EQ(digests(in("straight.h5")), digests(in("shuffled.h5")));
+TEST_F(RoundTrip, RepeatingValuesInBothPrecisions) {
+  for (const Precision precision : {Precision::real64, Precision::real32}) {
+    const Grid grid = sample::grid_of({5, 1000}, precision);
+    sample::write(in("p.h5"), grid, Existing::replace, sample::repeating_columns);
+    const PortraitReader portrait(in("p.h5"));
+    std::vector<double> expected(portrait.settings());
+    for (std::uint64_t i = 0; i < expected.size(); ++i) {
+      const double value = sample::repeating_value(Measure::Ms, i);
+      expected[i] = precision == Precision::real64 ? value : static_cast<double>(static_cast<float>(value));
+    }
+    EXPECT_EQ(raw(values_of(portrait, Measure::Ms, 0, portrait.settings())), raw(expected));
+  }
 }
 
 TEST_F(RoundTrip, WritingWhatWasReadGivesTheSamePortrait) {
@@ -137,7 +151,7 @@ TEST_F(RoundTrip, WritingWhatWasReadGivesTheSamePortrait) {
     for (std::size_t k = 0; k < grid.measures.size(); ++k)
       columns.values[k] = values_of(first, grid.measures[k], range.first, range.count);
     columns.status = statuses_of(first, range.first, range.count);
-    writer.write(tile, columns);
+    writer.write(writer.encode(tile, columns));
   }
   writer.publish({});
   EXPECT_EQ(digests(in("first.h5")), digests(in("second.h5")));
@@ -149,7 +163,7 @@ TEST_F(RoundTrip, FactsOfTheRun) {
   EXPECT_EQ(facts.history, facts.date_created + " portrait sweep sample.toml");
   EXPECT_EQ(facts.method, "sample");
   EXPECT_EQ(facts.state, "complete");
-  EXPECT_EQ(facts.schema_version, "1.0.0");
+  EXPECT_EQ(facts.schema_version, "1.1.0");
   EXPECT_EQ(facts.wall_seconds, 1.5);
   EXPECT_EQ(facts.threads, 2);
 }

@@ -17,20 +17,23 @@ Grid small_grid();
 /// The same with `sizes` values along kappa, tau_i, delta, tau_f.
 Grid grid_of(const std::vector<std::uint64_t>& sizes, Precision precision = Precision::real64);
 
-/// Different for every setting and measure, the same on every machine; every seventh setting is unstable, NaN in all
-/// measures.
+/// Different for every setting and measure, the same on every machine; every seventh setting is unstable, NaN in
+/// all measures.
 double value(Measure measure, std::uint64_t setting);
 Status status(std::uint64_t setting);
+
+/// One that repeats: a thousand settings NaN, a thousand constant, a thousand mostly constant, a thousand
+/// different.
+double repeating_value(Measure measure, std::uint64_t setting);
 
 /// What a sweep would give for a tile.
 MeasureColumns columns(const Grid& grid, std::uint64_t tile);
 
-/// All tiles in the given order, published with fixed run facts.
-void write(const std::filesystem::path& path, const Grid& grid, const std::vector<std::uint64_t>& order,
-           Existing existing = Existing::refuse);
-/// In the order of their numbers.
-void write(const std::filesystem::path& path, const Grid& grid);
+MeasureColumns repeating_columns(const Grid& grid, std::uint64_t tile);
 
-std::vector<std::uint64_t> tiles_in_order(const Grid& grid);
+/// All tiles, published with fixed run facts.
+using Columns = MeasureColumns(const Grid& grid, std::uint64_t tile);
+void write(const std::filesystem::path& path, const Grid& grid, Existing existing = Existing::refuse,
+           Columns columns_of = columns);
 
 }  // namespace portrait::sample

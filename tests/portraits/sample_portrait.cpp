@@ -1,4 +1,6 @@
 /// sample_portrait write SIZES FILE     a sample portrait; SIZES as 3,4 or `small` or `none`
+/// sample_portrait repeat SIZES FILE    one with values that repeat each other
+/// sample_portrait single SIZES FILE    the same in single precision
 /// sample_portrait replace SIZES FILE   the same, in the place of an existing file
 /// sample_portrait verify FILE          prints every dataset with its digest
 /// For the tests that run programs. Exit codes are those of `portrait`.
@@ -25,17 +27,19 @@ portrait::Grid grid_named(const std::string& name) {
   return portrait::sample::grid_of(sizes);
 }
 
-void write(const portrait::Grid& grid, const std::string& path, portrait::Existing existing) {
-  portrait::sample::write(path, grid, portrait::sample::tiles_in_order(grid), existing);
-}
-
 int run(const std::vector<std::string>& words) {
   if (words.size() == 3 && words[0] == "write") {
-    write(grid_named(words[1]), words[2], portrait::Existing::refuse);
+    portrait::sample::write(words[2], grid_named(words[1]));
+    return 0;
+  }
+  if (words.size() == 3 && (words[0] == "repeat" || words[0] == "single")) {
+    portrait::Grid grid = grid_named(words[1]);
+    if (words[0] == "single") grid.precision = portrait::Precision::real32;
+    portrait::sample::write(words[2], grid, portrait::Existing::refuse, portrait::sample::repeating_columns);
     return 0;
   }
   if (words.size() == 3 && words[0] == "replace") {
-    write(grid_named(words[1]), words[2], portrait::Existing::replace);
+    portrait::sample::write(words[2], grid_named(words[1]), portrait::Existing::replace);
     return 0;
   }
   if (words.size() == 2 && words[0] == "verify") {
@@ -43,7 +47,8 @@ int run(const std::vector<std::string>& words) {
       fmt::print("{} {}\n", dataset.digest, dataset.name);
     return 0;
   }
-  throw portrait::InputError("usage: sample_portrait write|replace SIZES FILE, or sample_portrait verify FILE");
+  throw portrait::InputError(
+      "usage: sample_portrait write|repeat|single|replace SIZES FILE, or sample_portrait verify FILE");
 }
 
 int code_of(std::exception_ptr thrown) {

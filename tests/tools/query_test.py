@@ -28,11 +28,19 @@ class Query(ProgramTest):
             self.assertLess(active["objective_without"], answer["optimum"]["objective"])
 
     def test_json_equals_simulate(self):
-        best = self.query("--minimize", "IAE_w", "--json").json["optimum"]
+        grid = program.SMALL_GRID.replace("n = 0", "n = 1\nsampling = 0.1") + "tau_f = 0.2\n"
+        self.write("noise.toml", grid)
+        self.run_program("sweep", "noise.toml", "-o", "noise.h5", "--quiet")
+        best = self.run_program("query", "noise.h5", "--minimize", "IAE_w", "--json").json["optimum"]
         s = best["settings"]
         simulated = self.run_program("simulate", "--plant", "dipdt", "--kappa", s["kappa"], "--tau-i", s["tau_i"], "--delta",
-                                     s["delta"], "--horizon", "40", "--json").json
+                                     s["delta"], "--tau-f", "0.2", "--horizon", "40", "--sampling", "0.1", "--json").json
         self.assertEqual(best["measures"], simulated["measures"])
+        self.assertGreater(best["measures"]["noise_gain"], 0)
+
+    def test_noise_gain_is_not_stored_without_sampling(self):
+        self.assertNotIn("noise_gain", self.query("--minimize", "IAE_w", "--json").json["optimum"]["measures"])
+        self.assertIsNone(self.run_program("info", self.portrait, "--json").json["sampling"])
 
     def test_real_units(self):
         K, Td = 3.0, 0.5

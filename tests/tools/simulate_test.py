@@ -1,6 +1,7 @@
 """portrait simulate."""
 
 import csv
+import math
 
 import program
 from program import ProgramTest
@@ -28,6 +29,24 @@ class Simulate(ProgramTest):
         answer = self.run_program("simulate", "--plant", "dipdt", "--kappa", "0.08", "--delta", "0.46", "--json").json
         self.assertEqual(answer["settings"]["tau_i"], "inf")
         self.assertIsNone(answer["measures"]["IAE_d"])
+
+    def test_margins(self):
+        measures = self.run_program("simulate", "--plant", "ipdt", "--kappa", "0.5", "--json").json["measures"]
+        self.assertAlmostEqual(measures["GM"], math.pi, places=12)
+        self.assertEqual(measures["GM_low"], 0)
+        self.assertAlmostEqual(measures["PM"], 90 - 0.5 * 180 / math.pi, places=11)
+        self.assertAlmostEqual(measures["DM"], math.pi - 1, places=12)
+
+    def test_noise_gain_needs_a_sampling_time(self):
+        loop = ("--plant", "ipdt", "--kappa", "0.5")
+        self.assertIsNone(self.run_program("simulate", *loop, "--json").json["measures"]["noise_gain"])
+        noisy = self.run_program("simulate", *loop, "--sampling", "0.01", "--json").json["measures"]["noise_gain"]
+        self.assertAlmostEqual(noisy, 0.5, places=2)
+        ideal = self.run_program("simulate", *PPM47, "--sampling", "0.01", "--json").json["measures"]["noise_gain"]
+        self.assertEqual(ideal, "inf")
+        for wrong in ("0", "inf", "often"):
+            self.assert_fails(self.run_program("simulate", *loop, "--sampling", wrong), 2,
+                              f'--sampling: "{wrong}" is not a number of dead times above 0 and at most 10000')
 
     def test_unstable_is_an_answer(self):
         result = self.run_program("simulate", "--plant", "ipdt", "--kappa", "1.6", "--json")

@@ -8,7 +8,7 @@ import time
 import program
 from program import ProgramTest, SMALL_GRID
 
-LONG_GRID = SMALL_GRID.replace("step = 0.08", "count = 400").replace("[0.4, 0.55, 0.7]", "{ from = 0.4, to = 0.7, count = 40 }")
+LONG_GRID = SMALL_GRID.replace("step = 0.08", "count = 4000").replace("[0.4, 0.55, 0.7]", "{ from = 0.4, to = 0.7, count = 401 }")
 
 
 class Sweep(ProgramTest):
@@ -40,13 +40,13 @@ class Sweep(ProgramTest):
         self.write("g.toml", LONG_GRID)
         result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--dry-run", "--threads", "2")
         self.assertEqual(result.code, 0)
-        self.assertRegex(result.out, r"^48,000 settings in \d+ tiles, 24 measures each\nabout .* on 2 threads, at most .* on disk\n$")
+        self.assertRegex(result.out, r"^4,812,000 settings in \d+ tiles, 36 measures each\nabout .* on 2 threads, at most .* on disk\n$")
         self.assertFalse((self.folder / "g.h5").exists())
         answer = self.run_program("sweep", "g.toml", "--dry-run", "--json").json
-        self.assertEqual(answer["settings"], 48000)
+        self.assertEqual(answer["settings"], 4812000)
 
     def test_dry_run_of_a_grid_that_no_memory_holds(self):
-        self.write("g.toml", LONG_GRID.replace("count = 400", "count = 4000000000").replace("count = 40 ", "count = 40000000 "))
+        self.write("g.toml", LONG_GRID.replace("count = 4000", "count = 4000000000").replace("count = 401 ", "count = 40000000 "))
         result = self.run_program("sweep", "g.toml", "--dry-run", "--json")
         self.assertEqual(result.json["settings"], 4000000000 * 40000000 * 3)
 
@@ -89,7 +89,7 @@ class Sweep(ProgramTest):
             sweep.send_signal(number)
             out, err = sweep.communicate(timeout=60)
             self.assertEqual(sweep.returncode, 5)
-            self.assertRegex(err, r"portrait: stopped after [\d,]+ of 48,000 settings; no file was written\n$")
+            self.assertRegex(err, r"portrait: stopped after [\d,]+ of 4,812,000 settings; no file was written\n$")
             self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
 
     def test_second_ctrl_c_leaves_at_once_and_leaves_nothing(self):
@@ -103,7 +103,7 @@ class Sweep(ProgramTest):
         self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
 
     def test_a_file_that_may_not_grow_is_reported_and_leaves_nothing(self):
-        self.write("g.toml", LONG_GRID.replace("count = 400", "count = 20"))
+        self.write("g.toml", LONG_GRID.replace("count = 4000", "count = 20").replace("count = 401 ", "count = 40 "))
 
         def limit_file_size():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)

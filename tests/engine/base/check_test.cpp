@@ -2,19 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/engine/base/message_of.h"
+
 namespace portrait {
 namespace {
 
 /// What a broken promise says, without the path before this file's name.
 template <typename Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const BrokenPromise& broken) {
-    const std::string text = broken.what();
-    return text.substr(text.find("check_test.cpp"));
-  }
-  return "nothing was thrown";
+std::string promise_broken_by(Action action) {
+  const std::string text = message_of<BrokenPromise>(action);
+  return text.substr(text.find("check_test.cpp"));
 }
 
 TEST(Check, PassesWhatHolds) {
@@ -24,14 +21,14 @@ TEST(Check, PassesWhatHolds) {
 
 TEST(Check, NamesThePlaceAndTheCondition) {
   const int line = __LINE__ + 1;
-  const std::string message = message_of([] { PORTRAIT_CHECK(1 + 1 == 3); });
+  const std::string message = promise_broken_by([] { PORTRAIT_CHECK(1 + 1 == 3); });
   EXPECT_EQ(message, fmt::format("check_test.cpp:{}: check failed: 1 + 1 == 3", line));
 }
 
 TEST(Check, PrintsBothValues) {
   const int settings = 7;
   const int line = __LINE__ + 1;
-  const std::string message = message_of([&] { PORTRAIT_CHECK_EQ(settings, 8); });
+  const std::string message = promise_broken_by([&] { PORTRAIT_CHECK_EQ(settings, 8); });
   EXPECT_EQ(message, fmt::format("check_test.cpp:{}: check failed: settings == 8 (7 against 8)", line));
 }
 

@@ -21,9 +21,9 @@ inline std::vector<Measure> response_measures() {
   return found;
 }
 
-inline kernel::LaneMeasured measure_one(const kernel::Implementation& implementation, const Loop& loop,
-                                        Horizon horizon) {
-  kernel::LaneMeasured result;
+inline kernel::Measured measure_one(const kernel::Implementation& implementation, const Loop& loop,
+                                    Horizon horizon) {
+  kernel::Measured result;
   kernel::measure_responses(implementation, loop.family, {&loop.setting, 1}, horizon, {&result, 1});
   return result;
 }
@@ -51,16 +51,16 @@ struct Worst {
   }
 };
 
-/// A stable loop that the kernel takes, with constants in the range of its promise.
+/// A stable loop with constants in the range of its promise.
 inline Loop random_kernel_loop(oracle::Random& random) {
   while (true) {
     const Loop loop = oracle::random_stable_loop(random);
     const bool slow_enough = loop.family.n == 0 || loop.setting.tau_f >= 0.01;
-    if (slow_enough && kernel::kernel_takes(loop.family)) return loop;
+    if (slow_enough) return loop;
   }
 }
 
-/// Largest errors over `count` random loops: of IAE, and of everything else.
+/// Largest errors over `count` random loops: of the integrals of the error, and of everything else.
 struct Errors {
   Worst integral, variation;
   int unresolved = 0, status_differs = 0;
@@ -80,7 +80,7 @@ inline Errors errors_over(const kernel::Implementation& implementation, int coun
       double error = error_of(fast.measures[m], slow.measures[m]);
       const double variation = variation_of_signal(slow.measures, m);
       if (variation > 1e-3) error = std::min(error, std::abs(fast.measures[m] - slow.measures[m]) / variation);
-      const bool integral = m == Measure::IAE_w || m == Measure::IAE_d;
+      const bool integral = to_string(m).front() == 'I';
       (integral ? errors.integral : errors.variation).take(error, loop, m);
     }
   }

@@ -95,5 +95,23 @@ TEST(SignChanges, OfRandomProductsOfFactors) {
   }
 }
 
+TEST(ComplexRoots, AreThoseOfTheFactors) {
+  // (x - 2)(x^2 + 2 x + 5) x, twelve decades away: x -> 1e12 x
+  Polynomial p = product(product({-2, 1}, {5, 2, 1}), {0, 1});
+  for (std::size_t i = 0; i < p.size(); ++i) p[i] *= std::pow(1e-12, static_cast<double>(i));
+  const auto roots = complex_roots(p);
+  ASSERT_EQ(roots.size(), 3u);
+  for (const std::complex<double> expected : {std::complex(2.0, 0.0), {-1.0, 2.0}, {-1.0, -2.0}}) {
+    const auto near = [&](std::complex<double> root) { return std::abs(1e-12 * root - expected) < 1e-12; };
+    EXPECT_TRUE(std::any_of(roots.begin(), roots.end(), near)) << expected;
+  }
+}
+
+TEST(ComplexRoots, OfAConstantAreNone) {
+  EXPECT_TRUE(complex_roots({}).empty());
+  EXPECT_TRUE(complex_roots({3}).empty());
+  EXPECT_TRUE(complex_roots({0, 3}).empty());
+}
+
 }  // namespace
 }  // namespace portrait

@@ -43,10 +43,18 @@ TEST(Scale, FollowsTheUnitOfTheMeasure) {
   const RealPlant plant{Plant::dipdt, 3, 2, 0};  // g = 12
   EXPECT_EQ(scale(Measure::IAE_w, plant), 2);
   EXPECT_EQ(scale(Measure::IAE_d, plant), 12 * 2);  // K Td^3 as in [Huba2022 (27)]
+  EXPECT_EQ(scale(Measure::ISE_d, plant), 12 * 12 * 2);
+  EXPECT_EQ(scale(Measure::ITAE_w, plant), 2 * 2);
+  EXPECT_EQ(scale(Measure::ITAE_d, plant), 12 * 2 * 2);
+  EXPECT_EQ(scale(Measure::ITSE_d, plant), 12 * 12 * 2 * 2);
+  EXPECT_EQ(scale(Measure::Ms_omega, plant), 0.5);
   EXPECT_EQ(scale(Measure::TV2_yw, plant), 1);
   EXPECT_EQ(scale(Measure::y_max_d, plant), 12);
   EXPECT_EQ(scale(Measure::TV_uw, plant), 1.0 / 12);
   EXPECT_EQ(scale(Measure::u_max_d, plant), 1);
+  EXPECT_EQ(scale(Measure::DM, plant), 2);
+  EXPECT_EQ(scale(Measure::noise_gain, plant), 1.0 / 12);
+  EXPECT_EQ(scale(Measure::PM, plant), 1);
   EXPECT_EQ(scale(Measure::Ms, plant), 1);
   EXPECT_EQ(scale(Measure::Mt, plant), 1);
 }

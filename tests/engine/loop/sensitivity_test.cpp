@@ -142,6 +142,28 @@ TEST(Sensitivity, TheFrequencyIsWhereThePeakIs) {
   }
 }
 
+/// A root of an increasing function between two points.
+template <typename Function>
+double root(Function f, double left, double right) {
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (left + right);
+    (f(middle) < 0 ? left : right) = middle;
+  }
+  return left;
+}
+
+/// L = kappa e^{-s}/s: |1 + L|^2 and |1 + 1/L|^2 are stationary where these functions vanish.
+TEST(Sensitivity, TheFrequencyOfAFlatPeakIsThatOfNoSlope) {
+  for (const double kappa : {0.6, 0.9, 1.3}) {
+    const OpenLoop open = open_loop({{Plant::ipdt, 0, Prefilter::none}, {.kappa = kappa}});
+    const auto of_s = [&](double w) { return -(w * (w * std::cos(w) - std::sin(w)) + kappa); };
+    const auto of_t = [&](double w) { return w - kappa * (std::sin(w) + w * std::cos(w)); };
+    const double s = root(of_s, 1, 2.5), t = root(of_t, 0.2, 2.5);
+    EXPECT_NEAR(sensitivity_peak(open).omega, s, 1e-9 * s) << kappa;
+    EXPECT_NEAR(complementary_sensitivity_peak(open).omega, t, 1e-9 * t) << kappa;
+  }
+}
+
 TEST(Sensitivity, AgreesWithADenseScan) {
   RandomLoops random(31);
   for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) expect_as_scanned(random.next_stable());

@@ -11,9 +11,10 @@ namespace {
 
 /// Names that users, scripts and stored portraits rely on: none may change or leave.
 constexpr std::string_view kPublicNames[] = {
-    "IAE_w",  "IAE_d",  "TV_yw",   "TV_uw",   "TV_yd",   "TV_ud",   "TV0_yw", "TV1_yw",
-    "TV2_yw", "TV0_uw", "TV1_uw",  "TV2_uw",  "TV0_yd",  "TV1_yd",  "TV2_yd", "TV0_ud",
-    "TV1_ud", "TV2_ud", "y_max_w", "u_max_w", "y_max_d", "u_max_d", "Ms",     "Mt",
+    "IAE_w",    "IAE_d",    "TV_yw",      "TV_uw",  "TV_yd",  "TV_ud",  "TV0_yw", "TV1_yw", "TV2_yw",  "TV0_uw",
+    "TV1_uw",   "TV2_uw",   "TV0_yd",     "TV1_yd", "TV2_yd", "TV0_ud", "TV1_ud", "TV2_ud", "y_max_w", "u_max_w",
+    "y_max_d",  "u_max_d",  "Ms",         "Mt",     "ISE_w",  "ISE_d",  "ITAE_w", "ITAE_d", "ITSE_w",  "ITSE_d",
+    "Ms_omega", "Mt_omega", "noise_gain", "GM",     "GM_low", "PM",     "DM",
 };
 
 TEST(Catalogue, HoldsThePublicNames) {
@@ -40,10 +41,13 @@ TEST(Catalogue, EveryMeasureIsExplained) {
   }
 }
 
+/// _w and _d, with y or u before it: GM_low ends in w and is of no step.
 TEST(Catalogue, TheStepIsTheNamesLastLetter) {
   for (const Measure m : all_measures()) {
     const std::string_view name = to_string(m);
-    const bool of_a_step = name.find('_') != std::string_view::npos;
+    const std::size_t dash = name.rfind('_');
+    const bool of_a_step =
+        dash != std::string_view::npos && (name.back() == 'w' || name.back() == 'd') && name.size() - dash <= 3;
     EXPECT_EQ(info(m).step, of_a_step ? name.back() : '-') << name;
   }
 }
@@ -53,7 +57,14 @@ TEST(Catalogue, TheUnitIsThatOfTheSignal) {
   for (const char* name : {"IAE_w", "IAE_d"}) EXPECT_EQ(unit(name), Unit::output_time) << name;
   for (const char* name : {"TV_yw", "TV2_yd", "y_max_w", "y_max_d"}) EXPECT_EQ(unit(name), Unit::output) << name;
   for (const char* name : {"TV_uw", "TV2_ud", "u_max_w", "u_max_d"}) EXPECT_EQ(unit(name), Unit::input) << name;
-  for (const char* name : {"Ms", "Mt"}) EXPECT_EQ(unit(name), Unit::one) << name;
+  for (const char* name : {"ISE_w", "ISE_d"}) EXPECT_EQ(unit(name), Unit::output2_time) << name;
+  for (const char* name : {"ITAE_w", "ITAE_d"}) EXPECT_EQ(unit(name), Unit::output_time2) << name;
+  for (const char* name : {"ITSE_w", "ITSE_d"}) EXPECT_EQ(unit(name), Unit::output2_time2) << name;
+  for (const char* name : {"Ms_omega", "Mt_omega"}) EXPECT_EQ(unit(name), Unit::per_time) << name;
+  EXPECT_EQ(unit("PM"), Unit::degree);
+  EXPECT_EQ(unit("DM"), Unit::time);
+  EXPECT_EQ(unit("noise_gain"), Unit::input_per_output);
+  for (const char* name : {"Ms", "Mt", "GM", "GM_low"}) EXPECT_EQ(unit(name), Unit::one) << name;
 }
 
 TEST(MeasureRow, StartsAsNaN) {

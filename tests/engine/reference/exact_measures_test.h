@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "engine/loop/parameters.h"
+#include "engine/measures/step_measures.h"
 #include "engine/reference/measure.h"
 #include "tests/oracle/method_of_steps.h"
 
@@ -15,7 +17,7 @@ namespace portrait::reference {
 
 /// Relative; those of TV0, TV1, TV2 are relative to TV.
 struct Promise {
-  double iae, tv;
+  double iae, tv;  ///< iae for all four integrals of the error
 };
 
 /// What the header of engine/reference/response.h promises.
@@ -42,9 +44,22 @@ inline void expect_signal_measures(const MeasureRow& row, const SignalMeasures& 
   EXPECT_NEAR(row[measures.largest], largest, promise.tv * largest) << to_string(measures.largest);
 }
 
+inline void expect_error_integrals(const MeasureRow& row, const StepMeasures& names, const oracle::Signal& y,
+                                   double target, bool vanishes, double promise) {
+  const oracle::ErrorIntegrals exact = oracle::error_integrals(y, target);
+  const std::pair<Measure, oracle::Real> expected[] = {
+      {names.IAE, exact.IAE}, {names.ISE, exact.ISE}, {names.ITAE, exact.ITAE}, {names.ITSE, exact.ITSE}};
+  for (const auto& [measure, integral] : expected) {
+    const auto value = static_cast<double>(integral);
+    EXPECT_EQ(std::isnan(row[measure]), !vanishes) << to_string(measure);
+    if (vanishes) {
+      EXPECT_NEAR(row[measure], value, promise * value) << to_string(measure);
+    }
+  }
+}
+
 /// All measures of the two steps over so many dead times. `pieces` as in MethodOfSteps.
 inline void expect_exact_measures(const Loop& loop, int pieces, int dead_times, const Promise& promise) {
-  using enum Measure;
   SCOPED_TRACE(simulate_command(loop));
   const MeasureRow row = measure(loop, Horizon::fixed(dead_times)).measures;
   for (const Step step : {kSetpoint, kDisturbance}) {
@@ -52,17 +67,9 @@ inline void expect_exact_measures(const Loop& loop, int pieces, int dead_times, 
     exact.run_to(dead_times);
     const SteadyState rest = steady_state(loop, step);
     const double target = step == kSetpoint ? 1 : 0;
-    const double iae = row[step == kSetpoint ? IAE_w : IAE_d];
-    const auto expected = static_cast<double>(oracle::integral_of_error(exact.y(), target));
-    EXPECT_EQ(std::isnan(iae), rest.y != target);
-    if (rest.y == target) {
-      EXPECT_NEAR(iae, expected, promise.iae * expected) << "IAE of step " << step;
-    }
-    const bool w = step == kSetpoint;
-    const SignalMeasures y = w ? SignalMeasures{{TV_yw, TV0_yw, TV1_yw, TV2_yw}, y_max_w}
-                               : SignalMeasures{{TV_yd, TV0_yd, TV1_yd, TV2_yd}, y_max_d};
-    const SignalMeasures u = w ? SignalMeasures{{TV_uw, TV0_uw, TV1_uw, TV2_uw}, u_max_w}
-                               : SignalMeasures{{TV_ud, TV0_ud, TV1_ud, TV2_ud}, u_max_d};
+    const StepMeasures& names = step == kSetpoint ? kSetpointMeasures : kDisturbanceMeasures;
+    expect_error_integrals(row, names, exact.y(), target, rest.y == target, promise.iae);
+    const SignalMeasures y{names.of_y, names.y_max}, u{names.of_u, names.u_max};
     expect_signal_measures(row, y, exact.y(), rest.y, promise);
     expect_signal_measures(row, u, exact.u(), rest.u, promise);
   }

@@ -8,8 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/loop/margins.h"
+#include "engine/loop/noise_gain.h"
 #include "engine/loop/parameters.h"
 #include "engine/loop/sensitivity.h"
+#include "engine/measures/step_measures.h"
 #include "tests/oracle/random_loops.h"
 
 namespace portrait::reference {
@@ -182,12 +185,28 @@ TEST(MeasureRowOf, EveryStableLoopIsFiniteButForSuchErrors) {
     const bool integral = has_integral_action(loop.setting), integrating = integrators(loop.family.plant) > 0;
     const MeasureRow row = measure(loop, Horizon::fixed(10)).measures;
     for (const Measure m : all_measures()) {
-      const bool exists = m == IAE_d ? integral : m == IAE_w ? integral || integrating : true;
-      EXPECT_EQ(std::isfinite(row[m]), exists) << to_string(m);
+      if (m == Measure::noise_gain) continue;
+      const bool of_error = to_string(m).starts_with("I");
+      const bool exists = !of_error || integral || (info(m).step == 'w' && integrating);
+      EXPECT_EQ(std::isnan(row[m]), !exists) << to_string(m);
+      const bool may_be_inf = m == Ms_omega || m == Mt_omega || m == PM || m == DM;
+      EXPECT_TRUE(!std::isinf(row[m]) || may_be_inf) << to_string(m);
     }
     EXPECT_EQ(row[Ms], sensitivity_peak(open_loop(loop)).value);
     EXPECT_EQ(row[Mt], complementary_sensitivity_peak(open_loop(loop)).value);
+    EXPECT_EQ(row[Ms_omega], sensitivity_peak(open_loop(loop)).omega);
+    EXPECT_EQ(row[Mt_omega], complementary_sensitivity_peak(open_loop(loop)).omega);
+    const Margins m = margins(open_loop(loop));
+    EXPECT_EQ((std::array{row[GM], row[GM_low], row[PM], row[DM]}),
+              (std::array{m.gain, m.gain_low, m.phase_deg, m.delay}));
   }
+}
+
+TEST(MeasureRowOf, TheNoiseGainNeedsASamplingTime) {
+  const Loop loop = some_loops().front();
+  EXPECT_TRUE(std::isnan(measure(loop, Horizon::fixed(10)).measures[Measure::noise_gain]));
+  EXPECT_EQ(measure(loop, Horizon::fixed(10), {}, 0.1).measures[Measure::noise_gain],
+            portrait::noise_gain(loop, 0.1));
 }
 
 /// Deviation from rest over the last dead time before T, relative to the largest before T.

@@ -17,7 +17,9 @@ class NumberedTiles {
   TileQueue queue() {
     return TileQueue(
         {Measure::Ms}, sizes_.size(), [this](std::uint64_t tile) { return make(tile); },
-        [this](std::uint64_t tile, const MeasureColumns& columns) { store(tile, columns); });
+        [this](std::uint64_t tile, const MeasureColumns& columns) -> StoreStep {
+          return [this, tile, &columns] { store(tile, columns); };
+        });
   }
 
   /// Writes into a slice what `store` expects: the number of the tile and of the setting.

@@ -48,12 +48,21 @@ inline std::vector<Measure> every_measure() {
   return {all.begin(), all.end()};
 }
 
+/// Stores a job's tiles by `store`, with nothing to prepare.
+template <typename Store>
+void store_with(SweepJob& job, Store store) {
+  job.prepare = [store](std::uint64_t tile, const MeasureColumns& columns) -> StoreStep {
+    return [store, tile, &columns] { store(tile, columns); };
+  };
+}
+
 /// A job over `settings` in tiles of `tile_size`; `collected` must outlive it.
 inline SweepJob job_over(const std::vector<Setting>& settings, std::size_t tile_size, int threads,
                          Collected& collected) {
   SweepJob job;
   job.family = {.plant = Plant::dipdt, .n = 0, .prefilter = Prefilter::pi};
   job.horizon = Horizon::fixed(15);
+  job.sampling = 0.2;
   job.measures = collected.columns().kept;
   job.tile_count = (settings.size() + tile_size - 1) / tile_size;
   job.settings_of = [settings, tile_size](std::uint64_t tile) {
@@ -61,7 +70,8 @@ inline SweepJob job_over(const std::vector<Setting>& settings, std::size_t tile_
     const auto last = std::min(first + static_cast<std::ptrdiff_t>(tile_size), std::ssize(settings));
     return std::vector<Setting>(settings.begin() + first, settings.begin() + last);
   };
-  job.store = [&collected](std::uint64_t tile, const MeasureColumns& columns) { collected.store(tile, columns); };
+  store_with(job,
+             [&collected](std::uint64_t tile, const MeasureColumns& columns) { collected.store(tile, columns); });
   job.threads = threads;
   return job;
 }

@@ -6,39 +6,60 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/isa/dispatch.h"
 #include "engine/reference/measure.h"
+#include "tests/engine/base/message_of.h"
 #include "tests/engine/sweep/small_sweep.h"
 
 namespace portrait {
 namespace {
 
-template <typename Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const std::exception& failure) {
-    return failure.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(Sweep, StoresWhatTheReferenceMeasures) {
   const std::vector<Setting> settings = small_grid();
   Collected collected(every_measure());
-  const SweepJob job = job_over(settings, 7, 1, collected);
+  SweepJob job = job_over(settings, 7, 1, collected);
+  job.method = Method::reference;
   const SweepOutcome outcome = sweep(job);
 
   MeasureColumns expected(every_measure(), settings.size());
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    const reference::Measured measured = reference::measure({job.family, settings[i]}, job.horizon);
+    const reference::Measured measured =
+        reference::measure({job.family, settings[i]}, job.horizon, {}, job.sampling);
     expected.set(i, measured.status, measured.measures);
   }
   expect_same_bits(collected.columns(), expected);
   EXPECT_EQ(outcome.settings_measured, settings.size());
+  EXPECT_EQ(outcome.settings_by_reference, settings.size());
   EXPECT_EQ(outcome.tiles_stored, job.tile_count);
   EXPECT_TRUE(outcome.complete);
   EXPECT_EQ(outcome.threads, 1);
   EXPECT_GT(outcome.seconds, 0);
+}
+
+TEST(Sweep, UsesTheKernelUnlessToldOtherwise) {
+  const std::vector<Setting> settings = small_grid();
+  Collected collected(every_measure());
+  const SweepJob job = job_over(settings, 7, 1, collected);
+  EXPECT_EQ(sweep(job).settings_by_reference, 0u);
+
+  std::vector<SettingMeasured> measured(settings.size());
+  measure_settings(Method::kernel, job.family, job.horizon, job.sampling, settings, measured);
+  MeasureColumns expected(every_measure(), settings.size());
+  for (std::size_t i = 0; i < settings.size(); ++i) expected.set(i, measured[i].status, measured[i].measures);
+  expect_same_bits(collected.columns(), expected);
+}
+
+/// Constants that no panel of the kernel resolves: measured nevertheless, and counted.
+TEST(Sweep, LeavesWhatTheKernelCannotResolveToTheReference) {
+  std::vector<Setting> settings(3, {.kappa = 0.1248, .tau_i = 10.324, .delta = 0.5045, .tau_f = 0.1});
+  settings[1].tau_f = 1e-9;
+  Collected collected(every_measure());
+  SweepJob job = job_over(settings, 3, 1, collected);
+  job.family = {Plant::dipdt, 1, Prefilter::full};
+  EXPECT_EQ(sweep(job).settings_by_reference, 1u);
+  const reference::Measured truth = reference::measure({job.family, settings[1]}, job.horizon);
+  EXPECT_EQ(collected.columns().status[1], truth.status);
+  EXPECT_EQ(collected.columns().values[0][1], truth.measures[Measure::IAE_w]);
 }
 
 TEST(Sweep, KeepsTheMeasuresAskedFor) {
@@ -78,6 +99,7 @@ TEST(Sweep, AFailingSettingNamesTheCommandThatReproducesIt) {
   Collected collected(every_measure());
   SweepJob job = job_over(settings, 2, 1, collected);
   job.family.n = 1;
+  job.method = Method::reference;
   const std::string message = message_of([&] { sweep(job); });
   const std::size_t second_line = message.find('\n');
   ASSERT_NE(second_line, std::string::npos) << message;
@@ -91,7 +113,7 @@ TEST(Sweep, AFailingSettingNamesTheCommandThatReproducesIt) {
 TEST(Sweep, AFailureOfTheStoreIsRethrownAsItIs) {
   Collected collected(every_measure());
   SweepJob job = job_over(small_grid(), 7, 1, collected);
-  job.store = [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); };
+  store_with(job, [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); });
   EXPECT_THROW(sweep(job), std::out_of_range);
   EXPECT_EQ(message_of([&] { sweep(job); }), "disk full");
 }
@@ -108,10 +130,10 @@ TEST(Sweep, StopsAfterTheSliceInHand) {
   SweepJob job = job_over(small_grid(), 7, 1, collected);
   std::atomic<bool> stop = false;
   job.stop = &stop;
-  job.store = [&](std::uint64_t tile, const MeasureColumns& columns) {
+  store_with(job, [&](std::uint64_t tile, const MeasureColumns& columns) {
     collected.store(tile, columns);
     if (tile == 2) stop = true;
-  };
+  });
   const SweepOutcome outcome = sweep(job);
   EXPECT_FALSE(outcome.complete);
   EXPECT_EQ(outcome.tiles_stored, 3u);
@@ -135,7 +157,10 @@ TEST(Sweep, OfNoTilesIsComplete) {
   EXPECT_EQ(outcome.tiles_stored, 0u);
 }
 
-TEST(Sweep, SaysHowItMeasures) { EXPECT_EQ(sweep_method(), "reference"); }
+TEST(Sweep, SaysHowItMeasures) {
+  EXPECT_EQ(method_text(Method::reference), "reference");
+  EXPECT_EQ(method_text(Method::kernel), std::string("kernel, ") + chosen_implementation().name);
+}
 
 }  // namespace
 }  // namespace portrait

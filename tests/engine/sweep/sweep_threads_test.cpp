@@ -34,10 +34,10 @@ TEST(SweepThreads, AStoppedSweepHasStoredTheFirstTiles) {
     SweepJob job = job_over(small_grid(), 4, threads, part);
     std::atomic<bool> stop = false;
     job.stop = &stop;
-    job.store = [&](std::uint64_t tile, const MeasureColumns& columns) {
+    store_with(job, [&](std::uint64_t tile, const MeasureColumns& columns) {
       part.store(tile, columns);
       stop = true;
-    };
+    });
     const SweepOutcome outcome = sweep(job);
     EXPECT_EQ(outcome.tiles_stored, part.tiles());
     EXPECT_EQ(outcome.complete, part.tiles() == job.tile_count);
@@ -53,10 +53,10 @@ TEST(SweepThreads, AFailureOfTheStoreStopsThemAll) {
   for (const int threads : kThreads) {
     Collected collected(every_measure());
     SweepJob job = job_over(small_grid(), 2, threads, collected);
-    job.store = [&](std::uint64_t tile, const MeasureColumns& columns) {
+    store_with(job, [&](std::uint64_t tile, const MeasureColumns& columns) {
       if (tile == 3) throw std::out_of_range("disk full");
       collected.store(tile, columns);
-    };
+    });
     EXPECT_THROW(sweep(job), std::out_of_range);
     EXPECT_EQ(collected.tiles(), 3u);
   }
@@ -73,9 +73,22 @@ TEST(SweepThreads, AFailureEndsTheWorkOfTheOthers) {
     last_begun = tile;
     return made(tile);
   };
-  job.store = [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); };
+  store_with(job, [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); });
   EXPECT_THROW(sweep(job), std::out_of_range);
   EXPECT_LT(last_begun + 1, job.tile_count);
+}
+
+TEST(SweepThreads, AFailureToPrepareStopsThemAll) {
+  for (const int threads : kThreads) {
+    Collected collected(every_measure());
+    SweepJob job = job_over(small_grid(), 2, threads, collected);
+    job.prepare = [prepare = job.prepare](std::uint64_t tile, const MeasureColumns& columns) {
+      if (tile == 3) throw std::out_of_range("no memory");
+      return prepare(tile, columns);
+    };
+    EXPECT_THROW(sweep(job), std::out_of_range);
+    EXPECT_LE(collected.tiles(), 3u);
+  }
 }
 
 TEST(SweepThreads, AFailingSettingIsNamedWhateverThreadMeetsIt) {
@@ -83,8 +96,10 @@ TEST(SweepThreads, AFailingSettingIsNamedWhateverThreadMeetsIt) {
     std::vector<Setting> settings = small_grid();
     settings[31].b = kNaN;  // PD, stable
     Collected collected(every_measure());
+    SweepJob job = job_over(settings, 3, threads, collected);
+    job.method = Method::reference;
     try {
-      sweep(job_over(settings, 3, threads, collected));
+      sweep(job);
       FAIL() << "nothing was thrown";
     } catch (const std::runtime_error& failure) {
       EXPECT_NE(std::string(failure.what()).find("\nreproduce: portrait simulate --plant dipdt"),

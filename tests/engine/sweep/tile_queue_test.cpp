@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +17,8 @@ namespace portrait {
 namespace {
 
 using Numbers = std::vector<std::uint64_t>;
+
+constexpr std::size_t kSlice = TileQueue::kSliceSettings;
 
 std::vector<Slice> all_slices(TileQueue& queue) {
   std::vector<Slice> slices;
@@ -34,17 +38,21 @@ Numbers first_numbers(std::size_t count) {
 }
 
 TEST(TileQueue, CutsTilesIntoSlicesInOrder) {
-  NumberedTiles tiles({70, 5, 64});
+  NumberedTiles tiles({2 * kSlice + 6, 5, 2 * kSlice});
   TileQueue queue = tiles.queue();
   std::vector<std::array<std::size_t, 3>> cuts;
   for (const Slice& slice : all_slices(queue)) cuts.push_back({slice.tile->number, slice.first, slice.count});
-  EXPECT_EQ(cuts, (std::vector<std::array<std::size_t, 3>>{
-                      {0, 0, 32}, {0, 32, 32}, {0, 64, 6}, {1, 0, 5}, {2, 0, 32}, {2, 32, 32}}));
+  EXPECT_EQ(cuts, (std::vector<std::array<std::size_t, 3>>{{0, 0, kSlice},
+                                                           {0, kSlice, kSlice},
+                                                           {0, 2 * kSlice, 6},
+                                                           {1, 0, 5},
+                                                           {2, 0, kSlice},
+                                                           {2, kSlice, kSlice}}));
   EXPECT_FALSE(queue.next());
 }
 
 TEST(TileQueue, MakesATileWhenItsFirstSliceIsWanted) {
-  NumberedTiles tiles({33, 1});
+  NumberedTiles tiles({kSlice + 1, 1});
   TileQueue queue = tiles.queue();
   EXPECT_EQ(tiles.made, Numbers{});
   queue.next();
@@ -63,7 +71,7 @@ TEST(TileQueue, ATileStartsEmpty) {
 }
 
 TEST(TileQueue, StoresATileWhenItsLastSliceIsBack) {
-  NumberedTiles tiles({40, 1});
+  NumberedTiles tiles({kSlice + 8, 1});
   TileQueue queue = tiles.queue();
   const std::vector<Slice> slices = all_slices(queue);
   measure_and_finish(queue, slices[1]);
@@ -71,7 +79,7 @@ TEST(TileQueue, StoresATileWhenItsLastSliceIsBack) {
   EXPECT_EQ(queue.settings_measured(), 8u);
   measure_and_finish(queue, slices[0]);
   EXPECT_EQ(tiles.stored, Numbers{0});
-  EXPECT_EQ(queue.settings_measured(), 40u);
+  EXPECT_EQ(queue.settings_measured(), kSlice + 8);
   EXPECT_EQ(queue.tiles_stored(), 1u);
 }
 
@@ -91,7 +99,7 @@ TEST(TileQueue, StoresInOrderWhateverTheOrderOfTheSlices) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<std::size_t> sizes(1 + random() % 8);
-    for (std::size_t& size : sizes) size = 1 + random() % 100;
+    for (std::size_t& size : sizes) size = 1 + random() % (3 * kSlice);
     NumberedTiles tiles(sizes);
     TileQueue queue = tiles.queue();
     std::vector<Slice> slices = all_slices(queue);
@@ -116,13 +124,42 @@ TEST(TileQueue, OfNoTilesHasNothingToDo) {
   EXPECT_EQ(queue.tiles_stored(), 0u);
 }
 
+TEST(TileQueue, PreparesATileOutsideItsLockAndStoresItWithItsColumns) {
+  std::vector<std::string> steps;
+  std::unique_ptr<TileQueue> queue;
+  queue = std::make_unique<TileQueue>(
+      std::vector<Measure>{Measure::Ms}, 2, [](std::uint64_t) { return std::vector<Setting>(1); },
+      [&](std::uint64_t tile, const MeasureColumns& columns) -> StoreStep {
+        steps.push_back("prepare " + std::to_string(tile) + " of " + std::to_string(queue->settings_measured()));
+        return [&, tile] {
+          steps.push_back("store " + std::to_string(tile) + " " + std::to_string(columns.settings()));
+        };
+      });
+  const std::vector<Slice> slices = all_slices(*queue);
+  measure_and_finish(*queue, slices[1]);
+  measure_and_finish(*queue, slices[0]);
+  EXPECT_EQ(steps, (std::vector<std::string>{"prepare 1 of 1", "prepare 0 of 2", "store 0 1", "store 1 1"}));
+}
+
+TEST(TileQueue, GivesOutNothingMoreWhenClosed) {
+  NumberedTiles tiles({kSlice + 8, 1});
+  TileQueue queue = tiles.queue();
+  const auto slice = queue.next();
+  queue.close();
+  EXPECT_FALSE(queue.next());
+  measure_and_finish(queue, *slice);
+  EXPECT_EQ(queue.settings_measured(), kSlice);
+}
+
 TEST(TileQueue, AStoreThatFailedIsNotCalledAgain) {
   int calls = 0;
   TileQueue queue(
       {}, 3, [](std::uint64_t) { return std::vector<Setting>(1); },
-      [&](std::uint64_t, const MeasureColumns&) {
-        ++calls;
-        throw std::out_of_range("disk full");
+      [&](std::uint64_t, const MeasureColumns&) -> StoreStep {
+        return [&] {
+          ++calls;
+          throw std::out_of_range("disk full");
+        };
       });
   const std::vector<Slice> slices = all_slices(queue);
   EXPECT_THROW(queue.finish(slices[0]), std::out_of_range);

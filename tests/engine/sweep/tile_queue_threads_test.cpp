@@ -1,4 +1,7 @@
 #include <atomic>
+#include <chrono>
+#include <latch>
+#include <optional>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -54,6 +57,61 @@ TEST(TileQueueThreads, CanBeAskedForTheirProgressMeanwhile) {
   done = true;
   watcher.join();
   EXPECT_EQ(queue.settings_measured(), 4000u);
+}
+
+TEST(TileQueueThreads, PrepareTilesBesideEachOther) {
+  std::latch both(2);
+  int stored = 0;
+  TileQueue queue(
+      {}, 2, [](std::uint64_t) { return std::vector<Setting>(1); },
+      [&](std::uint64_t, const MeasureColumns&) -> StoreStep {
+        both.arrive_and_wait();  // for ever, if one had to wait for the other
+        return [&] { ++stored; };
+      });
+  const auto first = queue.next(), second = queue.next();
+  std::thread other([&] { queue.finish(*first); });
+  queue.finish(*second);
+  other.join();
+  EXPECT_EQ(stored, 2);
+}
+
+/// The first tile does not come back, so none is stored: another thread measures on alone until memory is full.
+class FullQueue : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    while (begun_ < TileQueue::kTilesInMemory) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+
+  static constexpr std::uint64_t kTiles = 3 * TileQueue::kTilesInMemory;
+  std::atomic<std::uint64_t> begun_ = 0;
+  std::uint64_t stored_ = 0;
+  TileQueue queue_{{},
+                   kTiles,
+                   [this](std::uint64_t) {
+                     ++begun_;
+                     return std::vector<Setting>(1);
+                   },
+                   [this](std::uint64_t, const MeasureColumns&) -> StoreStep { return [this] { ++stored_; }; }};
+  std::optional<Slice> held_ = queue_.next();
+  std::thread other_{[this] {
+    while (const auto slice = queue_.next()) queue_.finish(*slice);
+  }};
+};
+
+TEST_F(FullQueue, WaitsUntilATileIsStored) {
+  EXPECT_EQ(begun_, TileQueue::kTilesInMemory);
+  queue_.finish(*held_);
+  other_.join();
+  EXPECT_EQ(begun_, kTiles);
+  EXPECT_EQ(stored_, kTiles);
+}
+
+TEST_F(FullQueue, LetsGoWhenItIsClosed) {
+  queue_.close();
+  other_.join();
+  EXPECT_EQ(begun_, TileQueue::kTilesInMemory);
+  EXPECT_EQ(stored_, 0u);
 }
 
 }  // namespace

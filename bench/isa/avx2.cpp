@@ -1,0 +1,2 @@
+#define PORTRAIT_ISA_NAME avx2
+#include "bench/isa/unit.inl"

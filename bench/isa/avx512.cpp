@@ -1,0 +1,2 @@
+#define PORTRAIT_ISA_NAME avx512
+#include "bench/isa/unit.inl"

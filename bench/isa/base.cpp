@@ -1,0 +1,2 @@
+#define PORTRAIT_ISA_NAME base
+#include "bench/isa/unit.inl"

@@ -1,0 +1,202 @@
+/// Filter, controller and plant on a panel: from the negative error h = y - r to v = Q_n h, u and z.
+///
+///     v = Q_n h      u = -(kappa v + (kappa/tau_i) int v + delta v')     (n = 0: v' = y')
+///     dipdt  z'' = u + d        ipdt  z' = u + d        fotd  tau_1 z' + z = u + d
+///
+/// One pass over the coefficients, from the highest down: the back substitution of the last lag gives v', and each
+/// integration follows one coefficient behind what it integrates, so that nothing is loaded twice. The meters' sums are
+/// taken on the way.
+#pragma once
+
+#include "engine/kernel/filter.inl"
+#include "engine/kernel/mesh.inl"
+#include "engine/kernel/output.inl"
+
+namespace portrait::PORTRAIT_ISA_NAME {
+
+/// Integration of a series that comes from the highest coefficient down: give(k, f_k) returns the integral's coefficient
+/// k + 1, and last(start) its first.
+class Integration {
+ public:
+  explicit Integration(const IntegralWeights& weights) : weights_(weights) {}
+
+  Lanes give(int k, Lanes f) {
+    const Lanes here = f * Lanes(weights_.of[k]), integral = here - two_above_;
+    two_above_ = above_;
+    above_ = here;
+    return integral;
+  }
+  Lanes last(Lanes start) const { return start + (above_ - two_above_); }
+
+ private:
+  const IntegralWeights& weights_;
+  Lanes above_ = 0.0, two_above_ = 0.0;  ///< weighted f_k and f_{k+1}
+};
+
+template <kernel::PlantKind kind, bool filtered>
+class Chain {
+ public:
+  Series v, v1, v2, v3, v4, sum;                      ///< v and its derivatives; int v
+  Lanes sum_rest, v_rest, v1_rest, v2_rest, u1_rest;  ///< at least the sums of |c_k|, k >= 1
+  ErrorSums of_sum;
+
+  void begin(const kernel::Pack& pack, int extra) {
+    order_ = pack.n;
+    extra_ = extra;
+    tau_f_ = Lanes::from(pack.tau_f), tau_1_ = Lanes::from(pack.tau_1);
+    if (filtered) filter_.begin(order_, tau_f_);
+    if (kind == kernel::PlantKind::fotd) plant_rate_ = Lanes(1.0) / tau_1_;
+    kappa_ = -Lanes::from(pack.kappa), integral_gain_ = -Lanes::from(pack.integral_gain);
+    delta_ = -Lanes::from(pack.delta);
+    integral_ = z_ = z1_ = Lanes(0.0);
+  }
+
+  /// `h1`: h'. The next dead time's y comes in place of `z`; u and u' lie among its derivatives, d = `load` not yet added.
+  void run(const Panel& panel, Derivatives h, const Series& h1, Output& z) {
+    if constexpr (filtered) {
+      h = filter_.all_but_last(panel.filter, panel.half, h, extra_);
+      filter_.eliminate(panel.filter, *h.at[0], v1);
+    }
+    keep_higher(h);
+    pass(panel, h, h1, z);
+    if constexpr (filtered) {
+      filter_.advance_last(panel.half, v1[0]);
+      if (extra_ > 0) filter_.set_next(v3, h2_, v2);
+      if (extra_ > 1) filter_.set_next(v4, h3_, v3);
+    }
+    if constexpr (kind == kernel::PlantKind::fotd) step_lag(panel, z);
+  }
+
+  Lanes load = 1.0;  ///< d
+
+ private:
+  /// The pass writes where h'' and the third derivative are.
+  void keep_higher(const Derivatives& h) {
+    if (!filtered && extra_ > 0) copy(v3, *h.at[3]);
+    if (filtered && extra_ > 0) copy(h2_, *h.at[2]);
+    if (filtered && extra_ > 1) copy(h3_, *h.at[3]);
+  }
+
+  /// v, v', v'' of coefficient k.
+  struct Filtered {
+    Lanes v, v1, v2, slope;
+  };
+
+  Filtered filtered_at(int k, const Panel& panel, const Derivatives& h, const Series& h1, Lanes above) {
+    if constexpr (filtered) {
+      const Lanes w = filter_.substitute(panel.filter, v1, k, above);
+      return {mul_sub_from(tau_f_, w, (*h.at[0])[k]), w, filter_.next((*h.at[1])[k], w), w};
+    }
+    return {(*h.at[0])[k], (*h.at[1])[k], (*h.at[2])[k], h1[k]};
+  }
+
+  void pass(const Panel& panel, const Derivatives& h, const Series& h1, Output& z) {
+    Integration of_v(panel.weights), of_u(panel.weights), of_z1(panel.weights);
+    Rest rest_v2, rest_u1;
+    ErrorSums sums, z_sums;
+    Filtered above{Lanes(0.0), Lanes(0.0), Lanes(0.0), Lanes(0.0)};
+    Series &u = plant_input<kind>(z), &u1 = plant_input_slope<kind>(z);
+
+    // u_k and what follows from it, one coefficient behind v.
+    const auto act = [&](int k, Lanes integral, Lanes extra_load) {
+      const Lanes input = mul_add(kappa_, above.v, mul_add(integral_gain_, integral, delta_ * above.v1));
+      u[k] = input;
+      if constexpr (kind == kernel::PlantKind::dipdt) {
+        const Lanes z1 = of_u.give(k, input + extra_load);
+        if (k < kDegree) drive_double(k + 1, z1, of_z1, z_sums, z);
+      } else if constexpr (kind == kernel::PlantKind::ipdt) {
+        const Lanes y = of_u.give(k, input + extra_load);
+        if (k < kDegree) z.y[k + 1] = y, z_sums.add(k + 1, y);
+      }
+    };
+
+#pragma GCC unroll 16
+    for (int k = kDegree; k >= 0; --k) {
+      const Filtered here = filtered_at(k, panel, h, h1, above.v1);
+      const Lanes integral = of_v.give(k, here.v);
+      if (k < kDegree) {
+        sum[k + 1] = integral;
+        sums.add(k + 1, integral);
+        act(k + 1, integral, Lanes(0.0));
+      }
+      const Lanes slope = mul_add(kappa_, here.slope, mul_add(integral_gain_, here.v, delta_ * here.v2));
+      if (k > 0) rest_v2.add(here.v2), rest_u1.add(slope);
+      v[k] = here.v, v1[k] = here.v1, v2[k] = here.v2;
+      u1[k] = slope;
+      above = here;
+    }
+    sum[0] = of_v.last(integral_);
+    integral_ = mul_add(Lanes(2 * panel.half), above.v, integral_);
+    act(0, sum[0], load);
+    finish(panel, of_u, of_z1, z_sums, z);
+    of_sum = sums;
+    v2_rest = rest_v2.sum, u1_rest = rest_u1.sum;
+    bound_rests(panel.half, z);
+  }
+
+  /// What is integrated from v'' and u' has no sum of its own.
+  void bound_rests(double half, Output& z) {
+    v1_rest = filtered ? rest_of_integral(half, v2[0], v2_rest) : rest_of(v1);
+    v_rest = filtered ? rest_of_integral(half, v1[0], v1_rest) : rest_of(v);
+    sum_rest = rest_of_integral(half, v[0], v_rest);
+    if constexpr (kind == kernel::PlantKind::fotd) return;
+    const Lanes u_rest = rest_of_integral(half, plant_input_slope<kind>(z)[0], u1_rest);
+    const Lanes driven = rest_of_integral(half, plant_input<kind>(z)[0] + load, u_rest);
+    z.slope_rest = kind == kernel::PlantKind::dipdt ? driven : u_rest;
+    z.rest = kind == kernel::PlantKind::dipdt ? rest_of_integral(half, z.y1[0], driven) : driven;
+  }
+
+  /// z1_k of the double integrator, and z_{k+1}.
+  static void drive_double(int k, Lanes z1, Integration& of_z1, ErrorSums& sums, Output& z) {
+    z.y1[k] = z1;
+    const Lanes y = of_z1.give(k, z1);
+    if (k < kDegree) z.y[k + 1] = y, sums.add(k + 1, y);
+  }
+
+  /// The first coefficients, with the states at the panel's start, and the states at its end.
+  void finish(const Panel& panel, Integration& of_u, Integration& of_z1, ErrorSums& sums, Output& z) {
+    [[maybe_unused]] const Lanes length = 2 * panel.half;
+    [[maybe_unused]] const Lanes mean = plant_input<kind>(z)[0] + load;
+    if constexpr (kind == kernel::PlantKind::dipdt) {
+      z.y1[0] = of_u.last(z1_);
+      z.y[1] = of_z1.give(0, z.y1[0]);
+      sums.add(1, z.y[1]);
+      z.y[0] = of_z1.last(z_);
+      z_ = mul_add(length, z.y1[0], z_);
+      z1_ = mul_add(length, mean, z1_);
+    } else if constexpr (kind == kernel::PlantKind::ipdt) {
+      z.y[0] = of_u.last(z_);
+      z_ = mul_add(length, mean, z_);
+    }
+    if constexpr (kind != kernel::PlantKind::fotd) z.sums = sums;
+  }
+
+  /// fotd: z' by the lag's solver, z = u + d - tau_1 z', z'' = (u' - z')/tau_1.
+  void step_lag(const Panel& panel, Output& z) {
+    z.u[0] += load;
+    panel.plant.eliminate(z.y1, z.u, z_);
+    Rest rest;
+    ErrorSums sums;
+    Lanes above = 0.0;
+    for (int k = kDegree; k >= 0; --k) {
+      z.y1[k] = above = panel.plant.substitute(z.y1, k, above);
+      z.y[k] = mul_sub_from(tau_1_, above, z.u[k]);
+      z.y2[k] = plant_rate_ * (z.u1[k] - above);
+      if (k > 0) rest.add(above), sums.add(k, z.y[k]);
+    }
+    z.u[0] = z.u[0] - load;
+    z_ = mul_add(Lanes(2 * panel.half), z.y1[0], z_);
+    z.slope_rest = rest.sum;
+    z.rest = rest_of_integral(panel.half, above, rest.sum);
+    z.sums = sums;
+  }
+
+  Filter filter_;
+  Series h2_, h3_;
+  int order_ = 0, extra_ = 0;
+  Lanes tau_f_, tau_1_, plant_rate_;
+  Lanes kappa_, integral_gain_, delta_;  ///< times -1
+  Lanes integral_, z_, z1_;
+};
+
+}  // namespace portrait::PORTRAIT_ISA_NAME

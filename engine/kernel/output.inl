@@ -1,0 +1,65 @@
+/// The measured output on a panel, that of the plant one dead time before, with the derivatives that are known.
+///
+///     dipdt  y'' = u + d        ipdt  y' = u + d        fotd  tau_1 y' + y = u + d      (u, d, of one dead time before)
+#pragma once
+
+#include "engine/kernel/pack.h"
+#include "engine/kernel/sums.inl"
+
+namespace portrait::PORTRAIT_ISA_NAME {
+
+struct Output {
+  Series y, y1, y2, y3;    ///< y and derivatives: three of dipdt, two of the others
+  Series u, u1;            ///< of fotd; the others have u + d and u' among the derivatives of y
+  Lanes rest, slope_rest;  ///< at least the sums of |c_k|, k >= 1, of y and y1
+  ErrorSums sums;          ///< of y
+
+  void begin() {
+    set_zero(y), set_zero(y1), set_zero(y2), set_zero(y3);
+    sum_up();
+  }
+  void sum_up() {
+    rest = rest_of(y);
+    slope_rest = rest_of(y1);
+    sums = error_sums_of(y);
+  }
+};
+
+template <kernel::PlantKind kind>
+Series& plant_input(Output& z) {
+  return kind == kernel::PlantKind::dipdt ? z.y2 : kind == kernel::PlantKind::ipdt ? z.y1 : z.u;
+}
+template <kernel::PlantKind kind>
+Series& plant_input_slope(Output& z) {
+  return kind == kernel::PlantKind::dipdt ? z.y3 : kind == kernel::PlantKind::ipdt ? z.y2 : z.u1;
+}
+
+inline void join(Output& to, const Output& left, const Output& right) {
+  set_joined(to.y, left.y, right.y);
+  set_joined(to.y1, left.y1, right.y1);
+  set_joined(to.y2, left.y2, right.y2);
+  set_joined(to.y3, left.y3, right.y3);
+  to.sum_up();
+}
+
+inline void copy(Output& to, const Output& from) {
+  copy(to.y, from.y), copy(to.y1, from.y1), copy(to.y2, from.y2), copy(to.y3, from.y3);
+  to.rest = from.rest, to.slope_rest = from.slope_rest;
+  to.sums = from.sums;
+}
+
+/// The outputs of a graded mesh on the same mesh with `graded` = 0: the two shortest blocks become one, again and again.
+inline void flatten(const kernel::Mesh& mesh, Output* outputs) {
+  const int parts = 1 << mesh.halved;
+  int panels = panels_of(mesh);
+  Output joined;
+  for (int g = 0; g < mesh.graded; ++g, panels -= parts) {
+    for (int i = 0; i < parts; ++i) {
+      join(joined, outputs[2 * i], outputs[2 * i + 1]);
+      copy(outputs[i], joined);
+    }
+    for (int i = parts; i < panels - parts; ++i) copy(outputs[i], outputs[i + parts]);
+  }
+}
+
+}  // namespace portrait::PORTRAIT_ISA_NAME

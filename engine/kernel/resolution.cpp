@@ -1,0 +1,65 @@
+#include "engine/kernel/resolution.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/loop/open_loop.h"
+
+namespace portrait::kernel {
+namespace {
+
+/// Layers this small, as a part of the signal, no longer matter.
+constexpr double kFaded = 1e-10;
+constexpr int kAllIntervals = 1 << 30;
+/// Few different numbers, so that many settings share one.
+constexpr std::array kIntervalCounts = {2, 3, 4, 5, 6, 8, 12, 16, 24, 32, 48, 64};
+
+int rounded_up(double intervals) {
+  for (const int count : kIntervalCounts)
+    if (intervals <= count) return count;
+  return kAllIntervals;
+}
+
+/// Last coefficient of e^{-t/T} as one series over a dead time: that of the modified Bessel function I_12(z) e^{-z},
+/// z = 1/(2 T), to a factor of about 2.
+double last_coefficient(double T) {
+  const double z = 0.5 / T;
+  return 12.5 / z * std::exp(-65 / z);
+}
+
+/// Dead times until the layers of T have faded. At t = 0 there is none yet, and the first is of full size.
+int layered_intervals(const Loop& loop, double T) {
+  const double gain = gain_at(open_loop(loop), 1 / T);
+  if (gain >= 0.9) return kAllIntervals;
+  return rounded_up(2 + std::max(0.0, std::log(kFaded / last_coefficient(T)) / std::log(gain)));
+}
+
+/// The first panel of a graded dead time is at most 4 T long.
+int grading_for(double T) { return static_cast<int>(std::clamp(std::ceil(-std::log2(4 * T)), 0.0, 20.0)); }
+
+}  // namespace
+
+Resolution first_resolution(const Loop& loop, double fastest) {
+  Resolution first;
+  first.mesh.graded = fastest < kInf ? grading_for(fastest) : 0;
+  if (first.mesh.graded > 0) first.layered_intervals = layered_intervals(loop, fastest);
+  return first;
+}
+
+std::optional<Resolution> finer(const Resolution& last) {
+  Resolution next = last;
+  ++next.attempt;
+  const bool layers_go_on = last.layered_intervals == kAllIntervals || last.mesh.graded == 0;
+  if (next.attempt == 1 && !layers_go_on) {
+    next.layered_intervals = 2 * last.layered_intervals + 2;
+    ++next.mesh.graded;
+    return next;
+  }
+  next.layered_intervals = kAllIntervals;
+  ++next.mesh.halved;
+  if (panels_of(next.mesh) > kMaxPanels) return std::nullopt;
+  return next;
+}
+
+}  // namespace portrait::kernel

@@ -1,0 +1,28 @@
+/// How finely a loop's responses are cut into panels, so that series of the kernel's degree hold them.
+///
+/// A fast time constant T (filter, plant, prefilter) leaves a layer e^{-t/T} after every dead time, weaker by the loop's gain
+/// |L(j/T)| each time around. Panels graded towards the start of a dead time hold the layers while they matter; after that
+/// a dead time is one panel. The guess depends on the setting alone; whether it was good enough is seen in the last
+/// coefficients of the run, and `finer` gives what to try next.
+#pragma once
+
+#include <optional>
+
+#include "engine/kernel/pack.h"
+#include "engine/loop/loop.h"
+
+namespace portrait::kernel {
+
+struct Resolution {
+  Mesh mesh{};
+  int layered_intervals = 0;
+  int attempt = 0;
+};
+
+/// `fastest`: the smallest time constant of the loop, inf for none.
+Resolution first_resolution(const Loop& loop, double fastest);
+
+/// The next finer one; none beyond the finest.
+std::optional<Resolution> finer(const Resolution& resolution);
+
+}  // namespace portrait::kernel

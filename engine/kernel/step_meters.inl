@@ -1,0 +1,93 @@
+/// Everything that is metered of one step, and which part of a response a panel is.
+#pragma once
+
+#include "engine/kernel/error_meter.inl"
+#include "engine/kernel/pack.h"
+#include "engine/kernel/shape_meter.inl"
+
+namespace portrait::PORTRAIT_ISA_NAME {
+
+/// The instants that matter to a response, in whole dead times and panels.
+struct Span {
+  int intervals;    ///< begun up to the horizon
+  int late_from;    ///< the last dead time begins here
+  double fraction;  ///< of the last interval that counts; 0 for all of it
+
+  explicit Span(double horizon) {
+    const int whole = static_cast<int>(horizon);
+    fraction = horizon - whole;
+    intervals = whole + (fraction > 0 ? 1 : 0);
+    late_from = horizon > 1 ? static_cast<int>(horizon - 1) : 0;
+  }
+};
+
+/// Where a panel stands in a response. `end`: x up to which it counts; 1 but on the panel that the horizon cuts.
+struct Place {
+  double middle, half, end;
+  bool first_of_all, first_of_interval, last_of_interval, last_of_all, late;
+  bool look;  ///< whether the signals are quiet is asked
+  bool is_cut() const { return end < 1; }
+};
+
+/// Where the meters of both steps put what needs a closer look.
+struct Queues {
+  ExtremeQueue extremes;
+  SignQueue signs;
+};
+
+struct StepMeters {
+  ShapeMeter y, u;
+  ErrorMeter e;
+
+  void begin(Lanes y_rest, Lanes u_rest, Queues& queues) {
+    y.begin(y_rest, queues.extremes);
+    u.begin(u_rest, queues.extremes);
+    e.begin(queues.signs);
+  }
+
+  void evaluate() {
+    y.evaluate();
+    u.evaluate();
+    e.evaluate();
+  }
+};
+
+/// What stays within this part of its largest deviation from rest, over a dead time, is at rest for good.
+inline constexpr double kQuiet = 1e-11;
+
+inline void watch_cut(ShapeMeter& meter, const Signal& s, const Place& at, Mask active) {
+  Series f, slope;
+  set_cut_off(f, s.f, at.end);
+  set_cut_off(slope, s.slope, at.end);
+  if (at.first_of_interval) meter.enter(s.scale * value_at_start(f), active);
+  meter.watch({f, slope, s.scale, rest_of(slope)}, 0.5 * at.half * (at.end + 1), active);
+  meter.pass(s.scale * value_at_end(f), active);
+}
+
+/// One panel of a signal; lanes that are not at rest leave `quiet` when asked.
+inline void watch_signal(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump, Mask active,
+                         Mask& quiet) {
+  if (at.late && !meter.is_late) meter.begin_late();
+  if (at.is_cut()) {
+    watch_cut(meter, s, at, active);
+  } else {
+    if (at.first_of_all || (at.first_of_interval && may_jump)) meter.enter(s.scale * value_at_start(s.f), active);
+    if (at.first_of_interval && at.late) meter.pass(s.scale * value_at_start(s.f), active);
+    meter.watch(s, at.half, active);
+    if (at.late || at.last_of_all || (at.last_of_interval && (may_jump || at.look)))
+      meter.pass(s.scale * value_at_end(s.f), active);
+  }
+  if (at.last_of_all) meter.finish(active);
+  if (at.look) quiet = quiet & meter.is_quiet(s, kQuiet);
+}
+
+inline void watch_error(ErrorMeter& meter, const Error& e, const Place& at, Mask active) {
+  if (!at.is_cut()) return meter.watch(e, at.middle, at.half, active);
+  Series cut;
+  set_cut_off(cut, e.f, at.end);
+  const double half = 0.5 * at.half * (at.end + 1);
+  meter.watch({cut, e.offset, e.scale, rest_bound(cut, 1), error_sums_of(cut)}, at.middle - at.half + half, half,
+              active);
+}
+
+}  // namespace portrait::PORTRAIT_ISA_NAME

@@ -1,0 +1,52 @@
+/// Sums over the coefficients of a series that the meters ask for. All leave the first coefficient out, which alone changes
+/// when a constant is added.
+#pragma once
+
+#include "engine/kernel/legendre.inl"
+
+namespace portrait::PORTRAIT_ISA_NAME {
+
+/// How far a slope is from constant: sum of |c_k|, k >= 1.
+struct Rest {
+  Lanes sum = 0.0;
+  void add(Lanes c) { sum += abs(c); }
+};
+
+/// At least the sum of |c_k|, k >= 1, of the integral of a series over a panel, from that of the series itself:
+/// c_k = (h/2)(f_{k-1}/(2k-1) - f_{k+1}/(2k+3)).
+inline Lanes rest_of_integral(double half_length, Lanes first, Lanes rest) {
+  return Lanes(half_length) * mul_add(Lanes(2.0 / 3), rest, abs(first));
+}
+
+/// Of an error: sum of c_k^2/(2k+1), half the integral of the square; and what the moment of the square needs,
+/// int x P_k P_{k-1} = 2k/((2k-1)(2k+1)) = (1 + 1/(2k-1))/(2k+1), k >= 2. Coefficients come from the highest down. Above
+/// `kSquared` the squares are left out: of series that have died out at kDegree they are below rounding.
+struct ErrorSums {
+  static constexpr int kSquared = 8;
+  Lanes squares = 0.0, moments = 0.0;
+
+  void add(int k, Lanes c) {
+    if (k > kSquared) return;
+    const Lanes scaled = c * Lanes(1.0 / (2 * k + 1));
+    squares = mul_add(c, scaled, squares);
+    moments = mul_add(above_, c + scaled, moments);
+    above_ = scaled;
+  }
+
+ private:
+  Lanes above_ = 0.0;  ///< c_{k+1}/(2k+3)
+};
+
+inline Lanes rest_of(const Series& f) {
+  Rest rest;
+  for (int k = kDegree; k >= 1; --k) rest.add(f[k]);
+  return rest.sum;
+}
+
+inline ErrorSums error_sums_of(const Series& f) {
+  ErrorSums sums;
+  for (int k = kDegree; k >= 1; --k) sums.add(k, f[k]);
+  return sums;
+}
+
+}  // namespace portrait::PORTRAIT_ISA_NAME

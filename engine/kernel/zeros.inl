@@ -1,0 +1,116 @@
+/// Zeros of a series, located: what the meters need where the cheap test leaves a lane open.
+///
+/// A panel is cut in halves until in every lane either the series has no zero or its slope has none; then the series is
+/// monotonic and has one zero or none, found by Newton's method from the zero of a parabola. What is wanted at a zero is
+/// always an extreme of something (of y where y' vanishes, of the integral of e where e does), so an error of the place
+/// counts only squared.
+#pragma once
+
+#include "engine/kernel/legendre.inl"
+
+namespace portrait::PORTRAIT_ISA_NAME {
+
+/// A part of a panel: center + half * local, local in [-1, 1].
+struct Part {
+  Lanes center, half;
+  Part left() const { return {mul_sub_from(Lanes(0.5), half, center), Lanes(0.5) * half}; }
+  Part right() const { return {mul_add(Lanes(0.5), half, center), Lanes(0.5) * half}; }
+  Lanes start() const { return center - half; }
+  Lanes at(Lanes local) const { return mul_add(half, local, center); }
+};
+
+inline constexpr int kHalvings = 8;
+
+struct Ends {
+  Lanes left, right;
+};
+
+inline Ends ends_of(const Series& f) {
+  Lanes even = f[0], odd = f[1];
+  for (int k = 2; k < kTerms; k += 2) even += f[k];
+  for (int k = 3; k < kTerms; k += 2) odd += f[k];
+  return {even - odd, even + odd};
+}
+
+inline Lanes value_in_middle(const Series& f) {
+  constexpr double kAtZero[7] = {1, -1.0 / 2, 3.0 / 8, -5.0 / 16, 35.0 / 128, -63.0 / 256, 231.0 / 1024};
+  Lanes sum = f[0];
+  for (int k = 2; k < kTerms; k += 2) sum = mul_add(Lanes(kAtZero[k / 2]), f[k], sum);
+  return sum;
+}
+
+/// Zero of the parabola through both ends and the middle, kept on the panel.
+inline Lanes zero_of_parabola(const Ends& e, Lanes middle) {
+  const Lanes slope = Lanes(0.5) * (e.right - e.left), curve = Lanes(0.5) * (e.right + e.left) - middle;
+  const Lanes root = sqrt(max(Lanes(0.0), mul_sub_from(Lanes(4.0) * curve, middle, slope * slope)));
+  const Lanes x = Lanes(-2.0) * middle / select(slope < Lanes(0.0), slope - root, slope + root);
+  return min(Lanes(1.0), max(Lanes(-1.0), x));
+}
+
+/// A place close to a zero of f, Newton's step -f/f' from there that is left over, and f there.
+struct Zero {
+  Lanes x, step, here;
+};
+
+/// The zero of a monotonic f that changes sign between its ends, to `kNear` of a half panel, in the lanes of `mask`. The
+/// bracket keeps Newton's method from running away. A lane that has arrived stays: its bits are its own.
+inline Zero zero_of(const Series& f, const Series& slope, const Ends& ends, Mask mask) {
+  constexpr double kNear = 3e-4;
+  Lanes left = -1.0, right = 1.0;
+  Zero zero{zero_of_parabola(ends, value_in_middle(f)), Lanes(0.0), Lanes(0.0)};
+  Mask open = mask;
+  for (int i = 0; i < 40; ++i) {
+    Lanes here = 0.0, steep = 0.0;
+    for_each_polynomial<kDegree>(zero.x, [&](int k, Lanes P) {
+      here = mul_add(f[k], P, here);
+      steep = mul_add(slope[k], P, steep);
+    });
+    zero.step = select(open, -here / steep, zero.step);
+    zero.here = select(open, here, zero.here);
+    const Mask same_as_left = here * ends.left > Lanes(0.0);
+    left = select(same_as_left, zero.x, left);
+    right = select(same_as_left, right, zero.x);
+    const Lanes next = zero.x + zero.step;
+    const Mask inside = (next > left) & (next < right);
+    open = but_not(open, abs(zero.step) < Lanes(kNear));
+    if (!any(open)) break;
+    zero.x = select(open, select(inside, next, Lanes(0.5) * (left + right)), zero.x);
+  }
+  return zero;
+}
+
+/// Cuts f on `part` until, in the lanes of `mask`, it is known where f vanishes, and tells the visitor, part after part:
+///
+///     keeps_sign(f, part, lanes)              no zero
+///     may_cross(f, slope, part, ends, lanes)  monotonic: one zero where the ends differ in sign, else none
+///
+/// `slope` is f' by the local x of the part.
+template <typename Visitor>
+void search_zeros(const Series& f, const Part& part, Mask mask, int halvings_left, Visitor& visitor) {
+  Series slope;
+  set_derivative(slope, f);
+  const Mask monotonic = halvings_left == 0 ? mask : mask & has_no_zero(slope);
+  if (any(monotonic)) visitor.may_cross(f, slope, part, ends_of(f), monotonic);
+  const Mask open = but_not(mask, monotonic);
+  if (!any(open)) return;
+  const Mask sure = open & has_no_zero(f);
+  if (any(sure)) visitor.keeps_sign(f, part, sure);
+  const Mask undecided = but_not(open, sure);
+  if (!any(undecided)) return;
+  Series& half = slope;
+  set_left_half(half, f);
+  search_zeros(half, part.left(), undecided, halvings_left - 1, visitor);
+  set_right_half(half, f);
+  search_zeros(half, part.right(), undecided, halvings_left - 1, visitor);
+}
+
+/// One lane of a vector, to read or to write.
+inline double& lane_of(Lanes& a, int lane) { return reinterpret_cast<double*>(&a)[lane]; }
+inline const double& lane_of(const Lanes& a, int lane) { return reinterpret_cast<const double*>(&a)[lane]; }
+
+/// A lane of `from`, times a factor.
+inline void copy_lane(Series& to, int slot, const Series& from, int lane, double factor) {
+  for (int k = 0; k < kTerms; ++k) lane_of(to[k], slot) = factor * lane_of(from[k], lane);
+}
+
+}  // namespace portrait::PORTRAIT_ISA_NAME

@@ -1,0 +1,63 @@
+#include "engine/sweep/method.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "engine/base/check.h"
+#include "engine/isa/dispatch.h"
+#include "engine/kernel/measure.h"
+#include "engine/loop/noise_gain.h"
+#include "engine/loop/parameters.h"
+#include "engine/reference/measure.h"
+
+namespace portrait {
+namespace {
+
+SettingMeasured measured_by_reference(const Loop& loop, Horizon horizon, std::optional<double> sampling) try {
+  const reference::Measured m = reference::measure(loop, horizon, {}, sampling);
+  return {m.status, m.measures, m.horizon, Method::reference};
+} catch (const std::exception& failure) {
+  throw std::runtime_error(fmt::format("{}\nreproduce: {}", failure.what(), simulate_command(loop)));
+}
+
+void measure_by_kernel(const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+                       std::span<const Setting> settings, std::span<SettingMeasured> results) {
+  std::vector<kernel::Measured> found(settings.size());
+  kernel::measure(chosen_implementation(), family, horizon, settings, found);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const kernel::Measured& m = found[i];
+    const Loop loop{family, settings[i]};
+    if (!m.resolved) {
+      results[i] = measured_by_reference(loop, horizon, sampling);
+      continue;
+    }
+    results[i] = {m.status, m.measures, m.horizon, Method::kernel};
+    if (sampling && m.status != Status::unstable)
+      results[i].measures[Measure::noise_gain] = noise_gain(loop, *sampling);
+  }
+}
+
+}  // namespace
+
+std::optional<Method> method_named(std::string_view name) {
+  const auto found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
+  if (found == kMethodNames.end()) return std::nullopt;
+  return static_cast<Method>(found - kMethodNames.begin());
+}
+
+std::string method_text(Method method) {
+  if (method == Method::reference) return "reference";
+  return fmt::format("kernel, {}", chosen_implementation().name);
+}
+
+void measure_settings(Method method, const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+                      std::span<const Setting> settings, std::span<SettingMeasured> results) {
+  PORTRAIT_CHECK_EQ(settings.size(), results.size());
+  if (method == Method::kernel) return measure_by_kernel(family, horizon, sampling, settings, results);
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    results[i] = measured_by_reference({family, settings[i]}, horizon, sampling);
+}
+
+}  // namespace portrait

@@ -1,0 +1,44 @@
+/// The two ways to measure settings: the kernel, which everything uses, and the reference, its judge.
+///
+/// shape     any number of settings of one family
+/// result    a setting's bits depend on the setting, the method and the instruction set, on nothing beside them
+/// errors    std::runtime_error with the command that reproduces the setting
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/status.h"
+#include "engine/loop/horizon.h"
+#include "engine/loop/loop.h"
+#include "engine/measures/catalogue.h"
+
+namespace portrait {
+
+enum class Method {
+  kernel,     ///< engine/kernel, many settings at a time
+  reference,  ///< engine/reference, one setting after the other
+};
+
+inline constexpr std::array<std::string_view, 2> kMethodNames = {"kernel", "reference"};
+constexpr std::string_view to_string(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
+std::optional<Method> method_named(std::string_view name);
+
+/// For the record: "kernel, avx512" or "reference". Throws InputError where PORTRAIT_ISA asks for what is not there.
+std::string method_text(Method method);
+
+struct SettingMeasured {
+  Status status = Status::not_computed;
+  MeasureRow measures;                ///< all NaN when unstable
+  double horizon = 0;                 ///< dead times simulated; 0 when unstable
+  Method method = Method::reference;  ///< the kernel leaves what its finest panels cannot resolve to the reference
+};
+
+/// `sampling` in dead times, for noise_gain, which is NaN without it. REQUIRES: settings valid; as many results.
+void measure_settings(Method method, const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+                      std::span<const Setting> settings, std::span<SettingMeasured> results);
+
+}  // namespace portrait
