@@ -40,7 +40,7 @@ class Sweep(ProgramTest):
         self.write("g.toml", LONG_GRID)
         result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--dry-run", "--threads", "2")
         self.assertEqual(result.code, 0)
-        self.assertRegex(result.out, r"^4,812,000 settings in \d+ tiles, 36 measures each\nabout .* on 2 threads, at most .* on disk\n$")
+        self.assertRegex(result.out, r"^4,812,000 settings in [\d,]+ tiles, 36 measures each\nabout .* on 2 threads, at most .* on disk\n$")
         self.assertFalse((self.folder / "g.h5").exists())
         answer = self.run_program("sweep", "g.toml", "--dry-run", "--json").json
         self.assertEqual(answer["settings"], 4812000)
