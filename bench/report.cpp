@@ -91,7 +91,7 @@ std::string peak_table(const Report& report, const Results& results) {
 
 /// Part of the chosen instruction set's peak that the kernel reaches.
 std::optional<double> share_of_peak(const ProvedCase& of, const Report& report, const Results& results) {
-  const std::string peak = "peak/" + report.instruction_set, name = of.name + "/responses";
+  const std::string peak = "peak/" + report.instruction_set, name = of.name + "/engine";
   if (!results.has(peak) || !results.has(name)) return std::nullopt;
   return of.flops * results.median(name) / results.median(peak);
 }
@@ -102,7 +102,7 @@ std::string share_table(const Report& report, const Results& results) {
     if (const auto share = share_of_peak(of, report, results))
       rows += fmt::format("{:<36}{:>12}{:>24.1f} %\n", of.name, grouped(of.flops), 100 * *share);
   if (rows.empty()) return {};
-  return fmt::format("\n{:<36}{:>12}{:>26}\n", "responses alone", "flop/setting", "of peak") + rows;
+  return fmt::format("\n{:<36}{:>12}{:>26}\n", "engine", "flop/setting", "of peak") + rows;
 }
 
 Json number(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }

@@ -108,10 +108,10 @@ struct SignQueue::Visitor {
     add(length * abs(e[0]), length * abs(mul_add(part.center, e[0], part.half * Lanes(1.0 / 3) * e[1])), mask);
   }
 
-  void may_cross(const Series& e, const Series& slope, const Part& part, const Ends& ends, Mask mask) {
+  void may_cross(const Series& e, const Part& part, const Ends& ends, Mask mask) {
     const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
     keeps_sign(e, part, but_not(mask, crosses));
-    if (any(crosses)) both_signs(e, zero_of(e, slope, ends, crosses), part, crosses);
+    if (any(crosses)) both_signs(e, zero_of(e, ends, crosses), part, crosses);
   }
 
   /// Both integrals from the left end to the zero, and the rest. int_{-1}^x P_k and int_{-1}^x s P_k(s) ds are sums of two

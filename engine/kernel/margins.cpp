@@ -7,23 +7,12 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "engine/kernel/numerator.h"
 #include "engine/loop/loop_measures.h"
 #include "engine/loop/stability.h"
 
 namespace portrait::kernel {
 namespace {
-
-/// Coefficients of N, as in open_loop.h, without its vector.
-struct Numerator {
-  double n0, n1, n2;
-  int integrators;
-};
-
-Numerator numerator_of(const LoopFamily& family, const Setting& s) {
-  const int k = integrators(family.plant);
-  if (has_integral_action(s)) return {s.kappa / s.tau_i, s.kappa, s.delta, k + 1};
-  return {s.kappa, s.delta, 0, k};
-}
 
 /// Three integrators: d ln|N|^2/d ln omega^2 < 3 everywhere, so that |L| falls from infinity to 0.
 bool falls_everywhere(const Numerator& N) {

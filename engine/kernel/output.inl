@@ -34,32 +34,43 @@ Series& plant_input_slope(Output& z) {
   return kind == kernel::PlantKind::dipdt ? z.y3 : kind == kernel::PlantKind::ipdt ? z.y2 : z.u1;
 }
 
-inline void join(Output& to, const Output& left, const Output& right) {
-  set_joined(to.y, left.y, right.y);
-  set_joined(to.y1, left.y1, right.y1);
-  set_joined(to.y2, left.y2, right.y2);
-  set_joined(to.y3, left.y3, right.y3);
-  to.sum_up();
-}
+/// The outputs of a graded mesh on the same mesh with `graded` = 0: the two shortest blocks become one, again and again. Of y
+/// and its derivatives, as many as are asked for.
+class Flattening {
+ public:
+  explicit Flattening(int derivatives) : rows_(derivatives + 1) {}
 
-inline void copy(Output& to, const Output& from) {
-  copy(to.y, from.y), copy(to.y1, from.y1), copy(to.y2, from.y2), copy(to.y3, from.y3);
-  to.rest = from.rest, to.slope_rest = from.slope_rest;
-  to.sums = from.sums;
-}
-
-/// The outputs of a graded mesh on the same mesh with `graded` = 0: the two shortest blocks become one, again and again.
-inline void flatten(const kernel::Mesh& mesh, Output* outputs) {
-  const int parts = 1 << mesh.halved;
-  int panels = panels_of(mesh);
-  Output joined;
-  for (int g = 0; g < mesh.graded; ++g, panels -= parts) {
-    for (int i = 0; i < parts; ++i) {
-      join(joined, outputs[2 * i], outputs[2 * i + 1]);
-      copy(outputs[i], joined);
+  void flatten(const kernel::Mesh& mesh, Output* outputs) {
+    const int parts = 1 << mesh.halved;
+    int panels = panels_of(mesh);
+    for (int g = 0; g < mesh.graded; ++g, panels -= parts) {
+      for (int i = 0; i < parts; ++i) join(outputs[i], outputs[2 * i], outputs[2 * i + 1]);
+      for (int i = parts; i < panels - parts; ++i) move(outputs[i], outputs[i + parts]);
     }
-    for (int i = parts; i < panels - parts; ++i) copy(outputs[i], outputs[i + parts]);
+    for (int i = 0; i < parts; ++i) outputs[i].sum_up();
   }
-}
+
+ private:
+  static Series& row(Output& z, int i) {
+    Series* const rows[] = {&z.y, &z.y1, &z.y2, &z.y3};
+    return *rows[i];
+  }
+
+  void join(Output& to, Output& left, Output& right) {
+    for (int i = 0; i < rows_; ++i) {
+      set_joined(joined_, row(left, i), row(right, i));
+      copy(row(to, i), joined_);
+    }
+  }
+
+  void move(Output& to, Output& from) {
+    for (int i = 0; i < rows_; ++i) copy(row(to, i), row(from, i));
+    to.rest = from.rest, to.slope_rest = from.slope_rest;
+    to.sums = from.sums;
+  }
+
+  int rows_;
+  Series joined_;
+};
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

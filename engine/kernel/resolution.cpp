@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "engine/loop/open_loop.h"
+#include "engine/kernel/numerator.h"
 
 namespace portrait::kernel {
 namespace {
 
 /// Layers this small, as a part of the signal, no longer matter.
-constexpr double kFaded = 1e-10;
+constexpr double kFaded = 1e-9;
 constexpr int kAllIntervals = 1 << 30;
 /// Few different numbers, so that many settings share one.
 constexpr std::array kIntervalCounts = {2, 3, 4, 5, 6, 8, 12, 16, 24, 32, 48, 64};
@@ -30,9 +30,9 @@ double last_coefficient(double T) {
 
 /// Dead times until the layers of T have faded. At t = 0 there is none yet, and the first is of full size.
 int layered_intervals(const Loop& loop, double T) {
-  const double gain = gain_at(open_loop(loop), 1 / T);
-  if (gain >= 0.9) return kAllIntervals;
-  return rounded_up(2 + std::max(0.0, std::log(kFaded / last_coefficient(T)) / std::log(gain)));
+  const double gain_squared = gain_squared_at(loop, 1 / T);
+  if (gain_squared >= 0.8) return kAllIntervals;
+  return rounded_up(2 + std::max(0.0, 2 * std::log(kFaded / last_coefficient(T)) / std::log(gain_squared)));
 }
 
 /// The first panel of a graded dead time is at most 4 T long.

@@ -73,18 +73,28 @@ double fastest(const LoopFamily& family, const Setting& s, SetpointRun run) {
 /// Settings that may lie side by side in a pack.
 struct Kind {
   SetpointRun run;
-  bool one_term;  ///< y_w is g0 int v alone, which the kernel treats apart
+  bool one_term;   ///< y_w is g0 int v alone, which the kernel treats apart
+  double horizon;  ///< dead times; of an automatic one as far as this attempt goes
   Resolution resolution;
 
   auto key() const {
-    return std::tuple(run, one_term, resolution.mesh.graded, resolution.mesh.halved, resolution.layered_intervals);
+    return std::tuple(run, one_term, horizon, resolution.mesh.graded, resolution.mesh.halved,
+                      resolution.layered_intervals);
   }
 };
 
-Kind kind_of(const LoopFamily& family, const Setting& s) {
+/// A pack runs until the last of its lanes is at rest: settings that take long wait for others like them.
+constexpr std::array kAutomaticHorizons = {64.0, 512.0, kHorizonCap};
+
+double next_automatic_horizon(double last) {
+  return *std::upper_bound(kAutomaticHorizons.begin(), kAutomaticHorizons.end(), last);
+}
+
+Kind kind_of(const LoopFamily& family, const Setting& s, Horizon horizon) {
   const SetpointRun run = setpoint_run(family, s);
   const Gains g = setpoint_gains(family, s);
-  return {run, g.g1 == 0 && g.g2 == 0, first_resolution({family, s}, fastest(family, s, run))};
+  const double dead_times = horizon.automatic ? kAutomaticHorizons.front() : horizon.dead_times;
+  return {run, g.g1 == 0 && g.g2 == 0, dead_times, first_resolution({family, s}, fastest(family, s, run))};
 }
 
 void fill_lane(Pack& pack, std::size_t lane, const Loop& loop) {
@@ -104,12 +114,12 @@ void fill_lane(Pack& pack, std::size_t lane, const Loop& loop) {
   pack.y_rest_d[lane] = d.y, pack.u_rest_d[lane] = d.u;
 }
 
-Pack pack_for(const LoopFamily& family, const Kind& kind, Horizon horizon) {
+Pack pack_for(const LoopFamily& family, const Kind& kind) {
   Pack pack{};
   pack.plant = static_cast<PlantKind>(family.plant);
   pack.n = family.n;
   pack.setpoint_run = kind.run;
-  pack.horizon = horizon.automatic ? kHorizonCap : horizon.dead_times;
+  pack.horizon = kind.horizon;
   pack.mesh = kind.resolution.mesh;
   pack.layered_intervals = kind.resolution.layered_intervals;
   return pack;
@@ -155,7 +165,7 @@ class Measurement {
         settings_(settings),
         horizon_(horizon),
         results_(results) {
-    for (std::size_t i = 0; i < settings.size(); ++i) tasks_.push_back({i, kind_of(family, settings[i])});
+    for (std::size_t i = 0; i < settings.size(); ++i) tasks_.push_back({i, kind_of(family, settings[i], horizon)});
   }
 
   /// Settings of one kind go side by side; those that are not resolved come back on finer panels.
@@ -181,7 +191,7 @@ class Measurement {
   }
 
   void run_pack(std::span<const Task> tasks) {
-    Pack pack = pack_for(family_, tasks.front().kind, horizon_);
+    Pack pack = pack_for(family_, tasks.front().kind);
     for (std::size_t lane = 0; lane < kMaxLanes; ++lane)
       fill_lane(pack, lane, {family_, settings_[tasks[std::min(lane, tasks.size() - 1)].setting]});
     PackResult result;
@@ -189,13 +199,23 @@ class Measurement {
     for (std::size_t lane = 0; lane < tasks.size(); ++lane) {
       Measured& m = results_[tasks[lane].setting];
       m = measured(pack, result, lane, horizon_.automatic);
-      if (!m.resolved) try_finer(tasks[lane]);
+      if (!m.resolved)
+        try_finer(tasks[lane]);
+      else if (horizon_.automatic && m.status == Status::not_settled && pack.horizon < kHorizonCap)
+        try_longer(tasks[lane]);
     }
   }
 
-  void try_finer(const Task& task) {
-    if (const auto next = finer(task.kind.resolution))
-      tasks_.push_back({task.setting, {task.kind.run, task.kind.one_term, *next}});
+  void try_finer(Task task) {
+    const auto next = finer(task.kind.resolution);
+    if (!next) return;
+    task.kind.resolution = *next;
+    tasks_.push_back(task);
+  }
+
+  void try_longer(Task task) {
+    task.kind.horizon = next_automatic_horizon(task.kind.horizon);
+    tasks_.push_back(task);
   }
 
   const Implementation& implementation_;

@@ -74,7 +74,9 @@ class Run {
   /// Layers have faded: from here on panels are as long as smooth signals allow.
   void leave_layers() {
     if (pack_.mesh.graded == 0) return;
-    flatten(pack_.mesh, outputs_);
+    // Of the others the chain makes new ones before it looks at them.
+    const int derivatives = (filtered ? 1 : 2) + (both_ ? derived_.extra(plant) : 0);
+    Flattening(derivatives).flatten(pack_.mesh, outputs_);
     set_mesh({0, pack_.mesh.halved});
   }
 

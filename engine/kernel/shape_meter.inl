@@ -223,13 +223,13 @@ struct ExtremeQueue::Visitor {
 
   void keeps_sign(const Series& slope, const Part& part, Mask mask) { go_on(slope[0], slope[0], part, mask); }
 
-  void may_cross(const Series& slope, const Series& curvature, const Part& part, const Ends& ends, Mask mask) {
+  void may_cross(const Series& slope, const Part& part, const Ends& ends, Mask mask) {
     const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
     const Mask start_is_zero = !(abs(ends.left) > Lanes(0.0));
     const Lanes start = select(start_is_zero, ends.right, ends.left);
     go_on(start, start, part, but_not(mask, !(abs(start) > Lanes(0.0))));
     if (!any(crosses)) return;
-    const Zero zero = zero_of(slope, curvature, ends, crosses);
+    const Zero zero = zero_of(slope, ends, crosses);
     // From x on Newton's last step adds half of itself times f'; f' by the panel's x.
     const Lanes left_over = Lanes(0.5) * queue.half_ * part.half * zero.step * zero.here;
     note(value(queue.f_, part.at(zero.x)) + left_over, crosses);

@@ -47,6 +47,52 @@ inline Lanes zero_of_parabola(const Ends& e, Lanes middle) {
   return min(Lanes(1.0), max(Lanes(-1.0), x));
 }
 
+/// P_k(x) = sum_j of[k][j] x^j
+struct PowerTable {
+  double of[kTerms][kTerms];
+};
+
+constexpr PowerTable make_power_table() {
+  PowerTable t{};
+  t.of[0][0] = 1;
+  t.of[1][1] = 1;
+  for (int k = 1; k + 1 < kTerms; ++k)
+    for (int j = 0; j <= k + 1; ++j)
+      t.of[k + 1][j] = ((2 * k + 1) * (j > 0 ? t.of[k][j - 1] : 0) - k * t.of[k - 1][j]) / (k + 1);
+  return t;
+}
+
+inline constexpr PowerTable kPowers = make_power_table();
+
+/// f and f' by powers of x: less exact than the series by the size of P_k's coefficients, which the small last coefficients
+/// of f take back, and with four short chains of operations in place of one long recursion.
+class Powers {
+ public:
+  explicit Powers(const Series& f) {
+    for (int j = 0; j < kTerms; ++j) {
+      Lanes sum = 0.0;
+      for (int k = j; k < kTerms; k += 2) sum = mul_add(f[k], Lanes(kPowers.of[k][j]), sum);
+      a_[j] = sum;
+    }
+    for (int j = 0; j < kDegree; ++j) slope_[j] = Lanes(j + 1.0) * a_[j + 1];
+    slope_[kDegree] = 0.0;
+  }
+
+  Lanes value(Lanes x) const { return by_halves(a_, x); }
+  Lanes slope(Lanes x) const { return by_halves(slope_, x); }
+
+ private:
+  static Lanes by_halves(const Series& a, Lanes x) {
+    const Lanes z = x * x;
+    Lanes even = a[kDegree], odd = a[kDegree - 1];
+    for (int j = kDegree - 2; j >= 0; j -= 2) even = mul_add(even, z, a[j]);
+    for (int j = kDegree - 3; j >= 1; j -= 2) odd = mul_add(odd, z, a[j]);
+    return mul_add(odd, x, even);
+  }
+
+  Series a_, slope_;
+};
+
 /// A place close to a zero of f, Newton's step -f/f' from there that is left over, and f there.
 struct Zero {
   Lanes x, step, here;
@@ -54,18 +100,15 @@ struct Zero {
 
 /// The zero of a monotonic f that changes sign between its ends, to `kNear` of a half panel, in the lanes of `mask`. The
 /// bracket keeps Newton's method from running away. A lane that has arrived stays: its bits are its own.
-inline Zero zero_of(const Series& f, const Series& slope, const Ends& ends, Mask mask) {
+inline Zero zero_of(const Series& f, const Ends& ends, Mask mask) {
+  const Powers powers(f);
   constexpr double kNear = 3e-4;
   Lanes left = -1.0, right = 1.0;
   Zero zero{zero_of_parabola(ends, value_in_middle(f)), Lanes(0.0), Lanes(0.0)};
   Mask open = mask;
   for (int i = 0; i < 40; ++i) {
-    Lanes here = 0.0, steep = 0.0;
-    for_each_polynomial<kDegree>(zero.x, [&](int k, Lanes P) {
-      here = mul_add(f[k], P, here);
-      steep = mul_add(slope[k], P, steep);
-    });
-    zero.step = select(open, -here / steep, zero.step);
+    const Lanes here = powers.value(zero.x);
+    zero.step = select(open, -here / powers.slope(zero.x), zero.step);
     zero.here = select(open, here, zero.here);
     const Mask same_as_left = here * ends.left > Lanes(0.0);
     left = select(same_as_left, zero.x, left);
@@ -76,21 +119,21 @@ inline Zero zero_of(const Series& f, const Series& slope, const Ends& ends, Mask
     if (!any(open)) break;
     zero.x = select(open, select(inside, next, Lanes(0.5) * (left + right)), zero.x);
   }
+  // Where f is nothing but rounding no step means anything.
+  zero.step = select(abs(zero.step) < Lanes(kNear), zero.step, Lanes(0.0));
   return zero;
 }
 
 /// Cuts f on `part` until, in the lanes of `mask`, it is known where f vanishes, and tells the visitor, part after part:
 ///
-///     keeps_sign(f, part, lanes)              no zero
-///     may_cross(f, slope, part, ends, lanes)  monotonic: one zero where the ends differ in sign, else none
-///
-/// `slope` is f' by the local x of the part.
+///     keeps_sign(f, part, lanes)       no zero
+///     may_cross(f, part, ends, lanes)  monotonic: one zero where the ends differ in sign, else none
 template <typename Visitor>
 void search_zeros(const Series& f, const Part& part, Mask mask, int halvings_left, Visitor& visitor) {
   Series slope;
   set_derivative(slope, f);
   const Mask monotonic = halvings_left == 0 ? mask : mask & has_no_zero(slope);
-  if (any(monotonic)) visitor.may_cross(f, slope, part, ends_of(f), monotonic);
+  if (any(monotonic)) visitor.may_cross(f, part, ends_of(f), monotonic);
   const Mask open = but_not(mask, monotonic);
   if (!any(open)) return;
   const Mask sure = open & has_no_zero(f);
@@ -110,7 +153,9 @@ inline const double& lane_of(const Lanes& a, int lane) { return reinterpret_cast
 
 /// A lane of `from`, times a factor.
 inline void copy_lane(Series& to, int slot, const Series& from, int lane, double factor) {
-  for (int k = 0; k < kTerms; ++k) lane_of(to[k], slot) = factor * lane_of(from[k], lane);
+  const double* const in = &lane_of(from[0], lane);
+  double* const out = &lane_of(to[0], slot);
+  for (int k = 0; k < kTerms; ++k) out[k * kLanes] = factor * in[k * kLanes];
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME
