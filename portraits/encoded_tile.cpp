@@ -26,7 +26,7 @@ EncodedColumn encode_as(const std::vector<double>& values, std::size_t chunk_val
   std::byte* into = bytes.data();
   for (std::size_t i = 0; i < values.size(); ++i) {
     Real value = static_cast<Real>(from[i]);
-    value = value != value ? nan : value;  // std::isnan stays out of vector code
+    value = value != value ? nan : value;  // NOLINT(misc-redundant-expression): std::isnan stays out of vector code
     std::memcpy(into + i * sizeof(Real), &value, sizeof(Real));
   }
   return {std::move(bytes), std::as_bytes(std::span(&nan, 1)), chunk_values};
