@@ -41,10 +41,9 @@ class Chain {
   ErrorSums of_sum;
 
   void begin(const kernel::Pack& pack, int extra) {
-    order_ = pack.n;
     extra_ = extra;
     tau_f_ = Lanes::from(pack.tau_f), tau_1_ = Lanes::from(pack.tau_1);
-    if (filtered) filter_.begin(order_, tau_f_);
+    if (filtered) filter_.begin(pack.n, tau_f_);
     if (kind == kernel::PlantKind::fotd) plant_rate_ = Lanes(1.0) / tau_1_;
     kappa_ = -Lanes::from(pack.kappa), integral_gain_ = -Lanes::from(pack.integral_gain);
     delta_ = -Lanes::from(pack.delta);
@@ -136,8 +135,8 @@ class Chain {
 
   /// What is integrated from v'' and u' has no sum of its own.
   void bound_rests(double half, Output& z) {
-    v1_rest = filtered ? rest_of_integral(half, v2[0], v2_rest) : rest_of(v1);
-    v_rest = filtered ? rest_of_integral(half, v1[0], v1_rest) : rest_of(v);
+    v1_rest = filtered ? rest_of_integral(half, v2[0], v2_rest) : rest_bound(v1, 1);
+    v_rest = filtered ? rest_of_integral(half, v1[0], v1_rest) : rest_bound(v, 1);
     sum_rest = rest_of_integral(half, v[0], v_rest);
     if constexpr (kind == kernel::PlantKind::fotd) return;
     const Lanes u_rest = rest_of_integral(half, plant_input_slope<kind>(z)[0], u1_rest);
@@ -193,7 +192,7 @@ class Chain {
 
   Filter filter_;
   Series h2_, h3_;
-  int order_ = 0, extra_ = 0;
+  int extra_ = 0;
   Lanes tau_f_, tau_1_, plant_rate_;
   Lanes kappa_, integral_gain_, delta_;  ///< times -1
   Lanes integral_, z_, z1_;

@@ -3,7 +3,7 @@
 ///     f(x) = sum_k c_k P_k(x),  -1 <= x <= 1,  k = 0 .. kDegree
 ///
 /// Legendre rather than Chebyshev: the integral of f is 2 c_0, that of f^2 a sum of squares, integration is two entries
-/// a row, and |P_k| <= 1 gives the same cheap test that f has no zero. A series is a kilobyte and more: every function
+/// a row, and |P_k| <= 1 gives the same cheap test that f has no zero. A series fills many registers: every function
 /// writes where it is told, and none returns or copies one unasked.
 #pragma once
 
@@ -42,19 +42,20 @@ inline void copy(Series& to, const Series& f) {
   for (int k = 0; k < kTerms; ++k) to[k] = f[k];
 }
 
-inline Lanes value_at_start(const Series& f) {
+/// f at both ends: the even terms less the odd ones, and with them.
+struct Ends {
+  Lanes left, right;
+};
+
+inline Ends ends_of(const Series& f) {
   Lanes even = f[0], odd = f[1];
   for (int k = 2; k < kTerms; k += 2) even += f[k];
   for (int k = 3; k < kTerms; k += 2) odd += f[k];
-  return even - odd;
+  return {even - odd, even + odd};
 }
 
-inline Lanes value_at_end(const Series& f) {
-  Lanes even = f[0], odd = f[1];
-  for (int k = 2; k < kTerms; k += 2) even += f[k];
-  for (int k = 3; k < kTerms; k += 2) odd += f[k];
-  return even + odd;
-}
+inline Lanes value_at_start(const Series& f) { return ends_of(f).left; }
+inline Lanes value_at_end(const Series& f) { return ends_of(f).right; }
 
 /// Calls use(k, P_k(x)) for k = 0 .. last: (k + 1) P_{k+1} = (2k + 1) x P_k - k P_{k-1}.
 template <int last, typename Use>
@@ -85,21 +86,13 @@ inline Lanes rest_bound(const Series& f, int from) {
   return a + b;
 }
 
-/// h/(2 (2k + 1)) for a panel h long: what integration takes of every term.
+/// h/(2 (2k + 1)) for a panel h long: what integration takes of every term, int P_k = (P_{k+1} - P_{k-1})/(2k + 1).
 struct IntegralWeights {
   double of[kTerms];
   void prepare(double half_length) {
     for (int k = 0; k < kTerms; ++k) of[k] = half_length / (2 * k + 1);
   }
 };
-
-/// to = start + (h/2) int_{-1}^x f: int P_k = (P_{k+1} - P_{k-1})/(2k + 1). The term of degree kDegree + 1 is dropped.
-inline void set_integral(Series& to, const Series& f, const IntegralWeights& weight, Lanes start) {
-  to[0] = start + mul_sub_from(f[1], Lanes(weight.of[1]), f[0] * Lanes(weight.of[0]));
-  for (int k = 1; k < kDegree; ++k)
-    to[k] = mul_sub_from(f[k + 1], Lanes(weight.of[k + 1]), f[k - 1] * Lanes(weight.of[k - 1]));
-  to[kDegree] = f[kDegree - 1] * Lanes(weight.of[kDegree - 1]);
-}
 
 /// to = d/dx f.
 inline void set_derivative(Series& to, const Series& f) {

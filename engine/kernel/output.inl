@@ -19,8 +19,8 @@ struct Output {
     sum_up();
   }
   void sum_up() {
-    rest = rest_of(y);
-    slope_rest = rest_of(y1);
+    rest = rest_bound(y, 1);
+    slope_rest = rest_bound(y1, 1);
     sums = error_sums_of(y);
   }
 };

@@ -164,7 +164,8 @@ class Run {
     derived_.set(f, 0, chain_);
     derived_.set(slope, 1, chain_);
     if (for_y)
-      watch_derived_output({f, slope, Lanes(1.0), rest_of(slope)}, rest_of(f), error_sums_of(f), place(k, p, look));
+      watch_derived_output({f, slope, Lanes(1.0), rest_bound(slope, 1)}, rest_bound(f, 1), error_sums_of(f),
+                           place(k, p, look));
     if (!for_u) return;
     if constexpr (plant == PlantKind::fotd) {
       const Lanes tau_1 = Lanes::from(pack_.tau_1);
@@ -175,7 +176,7 @@ class Run {
       derived_.set(f, kRelativeDegree, chain_);
       derived_.set(slope, kRelativeDegree + 1, chain_);
     }
-    watch_derived_input({f, slope, Lanes(1.0), rest_of(slope)}, place(k - 1, p, look));
+    watch_derived_input({f, slope, Lanes(1.0), rest_bound(slope, 1)}, place(k - 1, p, look));
   }
 
   void watch_derived_output(const Signal& y, Lanes rest, const ErrorSums& sums, const Place& at) {

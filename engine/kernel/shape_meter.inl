@@ -149,9 +149,9 @@ class ShapeMeter {
     Ends ends = ends_of(s.slope);
     ends = {s.scale * ends.left, s.scale * ends.right};
     // Where f' is 0 at one end its direction is that of the other.
-    const Mask no_start = !(abs(ends.left) > Lanes(0.0)), no_end = !(abs(ends.right) > Lanes(0.0));
-    const Lanes start = select(no_start, ends.right, ends.left), end = select(no_end, ends.left, ends.right);
-    go_on(start, end, s, but_not(moves, no_start & no_end));
+    const Mask starts = abs(ends.left) > Lanes(0.0), stops = abs(ends.right) > Lanes(0.0);
+    const Lanes start = select(starts, ends.left, ends.right), end = select(stops, ends.right, ends.left);
+    go_on(start, end, s, moves & (starts | stops));
     for (unsigned left = bits(unsure); left != 0; left &= left - 1) {
       const int lane = __builtin_ctz(left);
       waiting_ |= 1u << lane;
@@ -221,13 +221,12 @@ inline void ExtremeQueue::push(ShapeMeter& meter, int lane, const Signal& s, dou
 struct ExtremeQueue::Visitor {
   ExtremeQueue& queue;
 
-  void keeps_sign(const Series& slope, const Part& part, Mask mask) { go_on(slope[0], slope[0], part, mask); }
+  void keeps_sign(const Series& slope, const Part& part, Mask mask) { go_on(slope[0], part, mask); }
 
   void may_cross(const Series& slope, const Part& part, const Ends& ends, Mask mask) {
     const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
-    const Mask start_is_zero = !(abs(ends.left) > Lanes(0.0));
-    const Lanes start = select(start_is_zero, ends.right, ends.left);
-    go_on(start, start, part, but_not(mask, !(abs(start) > Lanes(0.0))));
+    const Lanes start = select(abs(ends.left) > Lanes(0.0), ends.left, ends.right);
+    go_on(start, part, mask & (abs(start) > Lanes(0.0)));
     if (!any(crosses)) return;
     const Zero zero = zero_of(slope, ends, crosses);
     // From x on Newton's last step adds half of itself times f'; f' by the panel's x.
@@ -237,11 +236,11 @@ struct ExtremeQueue::Visitor {
   }
 
   /// A zero on the very edge between two parts shows only by the direction.
-  void go_on(Lanes slope, Lanes end, const Part& part, Mask mask) {
+  void go_on(Lanes slope, const Part& part, Mask mask) {
     const Lanes direction = select(slope > Lanes(0.0), Lanes(1.0), Lanes(-1.0));
     const Mask turned = mask & (direction * queue.rising_ < Lanes(0.0));
     if (any(turned)) note(value(queue.f_, part.start()), turned);
-    queue.rising_ = select(mask, select(end > Lanes(0.0), Lanes(1.0), Lanes(-1.0)), queue.rising_);
+    queue.rising_ = select(mask, direction, queue.rising_);
   }
 
   void note(Lanes x, Mask mask) {

@@ -60,7 +60,7 @@ inline void watch_cut(ShapeMeter& meter, const Signal& s, const Place& at, Mask 
   set_cut_off(f, s.f, at.end);
   set_cut_off(slope, s.slope, at.end);
   if (at.first_of_interval) meter.enter(s.scale * value_at_start(f), active);
-  meter.watch({f, slope, s.scale, rest_of(slope)}, 0.5 * at.half * (at.end + 1), active);
+  meter.watch({f, slope, s.scale, rest_bound(slope, 1)}, 0.5 * at.half * (at.end + 1), active);
   meter.pass(s.scale * value_at_end(f), active);
 }
 

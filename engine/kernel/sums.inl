@@ -37,12 +37,6 @@ struct ErrorSums {
   Lanes above_ = 0.0;  ///< c_{k+1}/(2k+3)
 };
 
-inline Lanes rest_of(const Series& f) {
-  Rest rest;
-  for (int k = kDegree; k >= 1; --k) rest.add(f[k]);
-  return rest.sum;
-}
-
 inline ErrorSums error_sums_of(const Series& f) {
   ErrorSums sums;
   for (int k = kDegree; k >= 1; --k) sums.add(k, f[k]);

@@ -21,17 +21,6 @@ struct Part {
 
 inline constexpr int kHalvings = 8;
 
-struct Ends {
-  Lanes left, right;
-};
-
-inline Ends ends_of(const Series& f) {
-  Lanes even = f[0], odd = f[1];
-  for (int k = 2; k < kTerms; k += 2) even += f[k];
-  for (int k = 3; k < kTerms; k += 2) odd += f[k];
-  return {even - odd, even + odd};
-}
-
 inline Lanes value_in_middle(const Series& f) {
   constexpr double kAtZero[7] = {1, -1.0 / 2, 3.0 / 8, -5.0 / 16, 35.0 / 128, -63.0 / 256, 231.0 / 1024};
   Lanes sum = f[0];
