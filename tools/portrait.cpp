@@ -65,10 +65,18 @@ std::optional<std::string> unknown(std::string_view kind, const std::string& wor
 }
 
 /// The first word on the line that the program does not know: a likelier cause than what the parser stumbled over.
-std::optional<std::string> unknown_word(const CLI::App& app, const std::vector<std::string>& line) {
+std::optional<std::string> unknown_word(const CLI::App& app, std::vector<std::string> line) {
   if (line.empty() || line[0].starts_with("-")) return std::nullopt;
   if (const auto message = unknown("verb", line[0], verb_names(app))) return message;
-  const std::vector<std::string> known = option_names(*app.get_subcommand(line[0]));
+  const CLI::App* verb = app.get_subcommand(line[0]);
+  if (!verb_names(*verb).empty()) {  // portrait plot KIND: one level down
+    line.erase(line.begin());
+    if (line.empty() || line[0].starts_with("-"))
+      return fmt::format("portrait {} needs to know what: {}", verb->get_name(), fmt::join(verb_names(*verb), ", "));
+    if (const auto message = unknown("kind of " + verb->get_name(), line[0], verb_names(*verb))) return message;
+    verb = verb->get_subcommand(line[0]);
+  }
+  const std::vector<std::string> known = option_names(*verb);
   for (const std::string& word : line)
     if (word.size() > 2 && word.starts_with("--"))
       if (const auto message = unknown("option", word.substr(0, word.find('=')), known)) return message;
@@ -97,6 +105,7 @@ int run(int argc, char** argv) {
   add_verify(app, invocation);
   add_query(app, invocation);
   add_simulate(app, invocation);
+  add_plot(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,80 @@
+#include "tools/pictures/front.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace portrait::pictures {
+namespace {
+
+constexpr Size kSize{16, 12};
+
+/// What is reachable: between two points of the front one has to take the worse x for the better y.
+Outline staircase(const Outline& front) {
+  Outline steps;
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    if (k > 0) steps.push_back({front[k].x, front[k - 1].y});
+    steps.push_back(front[k]);
+  }
+  return steps;
+}
+
+std::size_t cell(double value, double low, double high, std::size_t cells) {
+  if (!(high > low)) return 0;
+  const double share = (value - low) / (high - low);
+  return std::min(cells - 1, static_cast<std::size_t>(share * static_cast<double>(cells)));
+}
+
+}  // namespace
+
+Outline pareto_front(std::vector<Point> points) {
+  std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  Outline front;
+  for (const Point& p : points)
+    if (front.empty() || p.y < front.back().y) front.push_back(p);
+  return front;
+}
+
+std::vector<Point> thinned(const std::vector<Point>& points, std::size_t columns, std::size_t rows) {
+  if (points.empty()) return {};
+  const auto [x0, x1] =
+      std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x; });
+  const auto [y0, y1] =
+      std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.y < b.y; });
+  std::vector<bool> taken(columns * rows, false);
+  std::vector<Point> kept;
+  for (const Point& p : points) {
+    const std::size_t at = cell(p.y, y0->y, y1->y, rows) * columns + cell(p.x, x0->x, x1->x, columns);
+    if (!taken[at]) kept.push_back(p);
+    taken[at] = true;
+  }
+  return kept;
+}
+
+Script script(const Front& front) {
+  Script script(kSize);
+  script.line("set title " + quoted(front.title));
+  script.line("set xlabel " + quoted(front.x_label));
+  script.line("set ylabel " + quoted(front.y_label));
+  script.line("set key top right");
+  if (front.log_x) script.line("set logscale x");
+  if (front.log_y) script.line("set logscale y");
+  std::string plots = "plot NaN notitle";
+  if (!front.settings.empty())
+    plots += fmt::format(", {} using 1:2 with points pt 7 ps 0.25 lc rgb '#bbbbbb' title 'settings'",
+                         script.data({front.settings}));
+  plots += fmt::format(", {} using 1:2 with lines lw 1.6 lc rgb '#0072b2' title 'Pareto front'",
+                       script.data({staircase(front.front)}));
+  plots +=
+      fmt::format(", {} using 1:2 with points pt 7 ps 0.6 lc rgb '#0072b2' notitle", script.data({front.front}));
+  for (std::size_t k = 0; k < front.marks.size(); ++k)
+    plots += fmt::format(", {} using 1:2 with points pt {} ps 1.5 lw 2 lc rgb '{}' title {}",
+                         script.data({{front.marks[k].at}}), std::array{5, 9, 11, 13, 3, 2}[k % 6],
+                         curve_colour(k + 1), quoted(front.marks[k].label));
+  script.line(plots);
+  return script;
+}
+
+}  // namespace portrait::pictures
