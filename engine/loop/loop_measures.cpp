@@ -7,7 +7,11 @@
 namespace portrait {
 
 void measure_loop(const Loop& loop, std::optional<double> sampling, MeasureRow& row) {
-  const OpenLoop open = open_loop(loop);
+  measure_loop(open_loop(loop), row);
+  if (sampling) row[Measure::noise_gain] = noise_gain(loop, *sampling);
+}
+
+void measure_loop(const OpenLoop& open, MeasureRow& row) {
   const Peak s = sensitivity_peak(open), t = complementary_sensitivity_peak(open);
   row[Measure::Ms] = s.value;
   row[Measure::Mt] = t.value;
@@ -18,7 +22,6 @@ void measure_loop(const Loop& loop, std::optional<double> sampling, MeasureRow& 
   row[Measure::GM_low] = m.gain_low;
   row[Measure::PM] = m.phase_deg;
   row[Measure::DM] = m.delay;
-  if (sampling) row[Measure::noise_gain] = noise_gain(loop, *sampling);
 }
 
 }  // namespace portrait

@@ -25,7 +25,7 @@ constexpr double kTolerance = 1e-9;
 
 /// s^k (T_1 s + 1)(T_2 s + 1)...
 struct Factors {
-  int integrators;
+  int integrators = 0;
   std::vector<double> lags;
 
   Complex at(Complex s) const {
@@ -59,10 +59,13 @@ Complex one_less_exp(Complex z) {
 class NoiseIntegral {
  public:
   NoiseIntegral(const Loop& loop, double sampling) : open_(open_loop(loop)), Ts_(sampling) {
-    const auto plant_lags = static_cast<std::ptrdiff_t>(open_.lags.size()) - loop.family.n;
-    const auto middle = open_.lags.begin() + plant_lags;
-    plant_ = {integrators(loop.family.plant), {open_.lags.begin(), middle}};
-    controller_ = {open_.integrators - plant_.integrators, {middle, open_.lags.end()}};
+    const Setting& setting = loop.setting;
+    plant_.integrators = integrators(loop.family.plant);
+    if (loop.family.plant == Plant::fotd) plant_.lags = {setting.tau_1};
+    controller_.integrators = has_integral_action(setting) ? 1 : 0;
+    controller_.lags.assign(static_cast<std::size_t>(loop.family.n), setting.tau_f);
+    numerator_ = has_integral_action(setting) ? Polynomial{setting.kappa / setting.tau_i, setting.kappa, setting.delta}
+                                              : Polynomial{setting.kappa, setting.delta};
     squared_ = numerator_squared(open_);
     left_terms_ = static_cast<int>(std::floor(Ts_));
     turn_at_ = turning_frequency();
@@ -113,9 +116,9 @@ class NoiseIntegral {
   }
 
   double slowest() const {
-    const auto& [n0, n1, n2] = open_.numerator;
-    double omega = n1 > 0 ? std::min(1.0, n0 / n1) : 1;
-    for (const double T : open_.lags) omega = std::min(omega, 1 / T);
+    double omega = numerator_[1] > 0 ? std::min(1.0, numerator_[0] / numerator_[1]) : 1;
+    for (const auto& lags : {plant_.lags, controller_.lags})
+      for (const double T : lags) omega = std::min(omega, 1 / T);
     return 0.1 * omega;
   }
 
@@ -145,7 +148,7 @@ class NoiseIntegral {
   }
 
   double on_axis(double omega) const {
-    const Complex s(0, omega), N = numerator(s), D_plant = plant_.at(s);
+    const Complex s(0, omega), N = portrait::value(numerator_, s), D_plant = plant_.at(s);
     const Complex G = N * D_plant / (D_plant * controller_.at(s) + N * std::exp(-s));
     const double angle = 0.5 * omega * Ts_;
     const double hold = angle == 0 ? 1 : std::sin(angle) / angle;
@@ -179,22 +182,18 @@ class NoiseIntegral {
   /// |C Q|^2/(1 - |L|^2) continued, times `a`, over Ts omega^2.
   double weighed(Complex omega, Complex direction, Complex a) const {
     const Complex z = omega * omega;
-    const Complex controller = controller_.divide_square(squared_[0] + z * (squared_[1] + z * squared_[2]), z);
+    const Complex controller = controller_.divide_square(portrait::value(squared_, z), z);
     const Complex gain = plant_.divide_square(controller, z);
     return (direction * controller / (1.0 - gain) * a / (Ts_ * z)).real();
   }
 
-  Complex numerator(Complex s) const {
-    const auto& [n0, n1, n2] = open_.numerator;
-    return n0 + s * (n1 + s * n2);
-  }
-
   /// L without its dead time.
-  Complex rational(Complex s) const { return plant_.divide(controller_.divide(numerator(s), s), s); }
+  Complex rational(Complex s) const { return plant_.divide(controller_.divide(portrait::value(numerator_, s), s), s); }
 
   OpenLoop open_;
   double Ts_;
   Factors plant_, controller_;
+  Polynomial numerator_;
   Polynomial squared_;  ///< |N|^2 over omega^2
   int left_terms_ = 0;  ///< powers of e^{-s} that e^{s Ts} outgrows
   double turn_at_ = 0;  ///< W

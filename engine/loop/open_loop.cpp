@@ -3,21 +3,42 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace portrait {
 namespace {
 
 using namespace std::complex_literals;
+using std::numbers::pi;
 
-std::complex<double> numerator_at(const OpenLoop& loop, double omega) {
-  const auto& [n0, n1, n2] = loop.numerator;
-  return {n0 - n2 * omega * omega, n1 * omega};
+/// 1 + a j omega - b omega^2
+std::complex<double> value(const Quadratic& f, double omega) { return {1 - f.b * omega * omega, f.a * omega}; }
+
+/// d/domega of it, divided by it
+std::complex<double> log_slope(const Quadratic& f, double omega) {
+  return std::complex<double>(-2 * f.b * omega, f.a) / value(f, omega);
+}
+
+/// Its imaginary part keeps its sign, so the principal angle is the continuous one; a = 0 counts as 0+.
+double angle(const Quadratic& f, double omega) { return std::arg(value(f, omega)); }
+
+int degree(const std::vector<Quadratic>& factors) {
+  int sum = 0;
+  for (const Quadratic& f : factors) sum += f.b != 0 ? 2 : 1;
+  return sum;
 }
 
 /// Degree of N less that of D.
-int excess(const OpenLoop& loop) {
-  const int degree = loop.numerator[2] != 0 ? 2 : loop.numerator[1] != 0 ? 1 : 0;
-  return degree - loop.integrators - static_cast<int>(loop.lags.size());
+int excess(const OpenLoop& loop) { return degree(loop.zeros) - degree(loop.poles) - loop.integrators; }
+
+double leading(const Quadratic& f) { return std::abs(f.b != 0 ? f.b : f.a); }
+
+/// How far the angle of a factor turns from omega = 0 to infinity.
+double turn(const Quadratic& f) { return std::copysign(f.b > 0 ? pi : f.b == 0 ? pi / 2 : 0, f.a); }
+
+Polynomial shifted(Polynomial p, int powers) {
+  p.insert(p.begin(), static_cast<std::size_t>(powers), 0.0);
+  return p;
 }
 
 std::vector<double> roots_of_x(const Polynomial& of_x) {
@@ -26,61 +47,96 @@ std::vector<double> roots_of_x(const Polynomial& of_x) {
   return roots;
 }
 
+/// Written out, a polynomial of high degree has lost some digits: Newton's method on log |L| brings them back.
+double polished(const OpenLoop& loop, double omega) {
+  double best = omega, off = std::log(gain_at(loop, omega));
+  for (int i = 0; i < 4 && off != 0; ++i) {
+    const double next = best - off / log_slope_at(loop, best).real();
+    if (!(std::abs(next - best) < 1e-3 * best)) break;
+    const double next_off = std::log(gain_at(loop, next));
+    if (!(std::abs(next_off) < std::abs(off))) break;
+    best = next, off = next_off;
+  }
+  return best;
+}
+
 }  // namespace
 
 OpenLoop open_loop(const Loop& loop) {
   const Setting& s = loop.setting;
   const bool integral = has_integral_action(s);
-  OpenLoop open;
-  open.numerator = integral ? std::array{s.kappa / s.tau_i, s.kappa, s.delta} : std::array{s.kappa, s.delta, 0.0};
-  open.integrators = integrators(loop.family.plant) + (integral ? 1 : 0);
-  if (loop.family.plant == Plant::fotd) open.lags.push_back(s.tau_1);
-  open.lags.insert(open.lags.end(), static_cast<std::size_t>(loop.family.n), s.tau_f);
-  return open;
+  const Polynomial N =
+      integral ? Polynomial{s.kappa / s.tau_i, s.kappa, s.delta} : Polynomial{s.kappa, s.delta};
+  std::vector<Polynomial> D(static_cast<std::size_t>(integrators(loop.family.plant) + (integral ? 1 : 0)), {0, 1});
+  if (loop.family.plant == Plant::fotd) D.push_back({1, s.tau_1});
+  D.insert(D.end(), static_cast<std::size_t>(loop.family.n), Polynomial{1, s.tau_f});
+  return open_loop({N}, D, 1);
+}
+
+OpenLoop open_loop(const std::vector<Polynomial>& numerator, const std::vector<Polynomial>& denominator,
+                   double dead_time) {
+  Factored N = factored(numerator), D = factored(denominator);
+  return {.gain = N.lowest / D.lowest,
+          .integrators = D.power - N.power,
+          .zeros = std::move(N.factors),
+          .poles = std::move(D.factors),
+          .dead_time = dead_time};
 }
 
 std::complex<double> response_at(const OpenLoop& loop, double omega) {
-  std::complex<double> value = numerator_at(loop, omega) * std::polar(1.0, -omega);
-  for (int i = 0; i < loop.integrators; ++i) value /= 1i * omega;
-  for (const double T : loop.lags) value /= 1.0 + 1i * T * omega;
-  return value;
+  std::complex<double> L = loop.gain * std::polar(1.0, -loop.dead_time * omega);
+  for (int i = 0; i < loop.integrators; ++i) L /= 1i * omega;
+  for (int i = 0; i < -loop.integrators; ++i) L *= 1i * omega;
+  for (const Quadratic& f : loop.zeros) L *= value(f, omega);
+  for (const Quadratic& f : loop.poles) L /= value(f, omega);
+  return L;
 }
 
 std::complex<double> log_slope_at(const OpenLoop& loop, double omega) {
-  const auto& [n0, n1, n2] = loop.numerator;
-  std::complex<double> slope = std::complex<double>(-2 * n2 * omega, n1) / numerator_at(loop, omega) - 1i;
-  slope -= static_cast<double>(loop.integrators) / omega;
-  for (const double T : loop.lags) slope -= 1i * T / (1.0 + 1i * T * omega);
+  std::complex<double> slope(-loop.integrators / omega, -loop.dead_time);
+  for (const Quadratic& f : loop.zeros) slope += log_slope(f, omega);
+  for (const Quadratic& f : loop.poles) slope -= log_slope(f, omega);
   return slope;
 }
 
 double gain_at(const OpenLoop& loop, double omega) {
-  double gain = std::abs(numerator_at(loop, omega)) / std::pow(omega, loop.integrators);
-  for (const double T : loop.lags) gain /= std::hypot(1, T * omega);
+  double gain = std::abs(loop.gain) / std::pow(omega, loop.integrators);
+  for (const Quadratic& f : loop.zeros) gain *= std::abs(value(f, omega));
+  for (const Quadratic& f : loop.poles) gain /= std::abs(value(f, omega));
   return gain;
 }
 
 double phase_at(const OpenLoop& loop, double omega) {
-  // N's imaginary part stays above 0, so its principal angle is the continuous one.
-  double phase = std::arg(numerator_at(loop, omega)) - omega - loop.integrators * std::numbers::pi / 2;
-  for (const double T : loop.lags) phase -= std::atan(T * omega);
+  double phase = -loop.dead_time * omega - loop.integrators * pi / 2 - (loop.gain < 0 ? pi : 0);
+  for (const Quadratic& f : loop.zeros) phase += angle(f, omega);
+  for (const Quadratic& f : loop.poles) phase -= angle(f, omega);
+  return phase;
+}
+
+double high_frequency_phase(const OpenLoop& loop) {
+  if (loop.dead_time > 0) return -kInf;
+  double phase = -loop.integrators * pi / 2 - (loop.gain < 0 ? pi : 0);
+  for (const Quadratic& f : loop.zeros) phase += turn(f);
+  for (const Quadratic& f : loop.poles) phase -= turn(f);
   return phase;
 }
 
 Polynomial numerator_squared(const OpenLoop& loop) {
-  const auto& [n0, n1, n2] = loop.numerator;
-  return {n0 * n0, n1 * n1 - 2 * n0 * n2, n2 * n2};
+  Polynomial n{loop.gain * loop.gain};
+  for (const Quadratic& f : loop.zeros) n = product(n, squared(f));
+  return shifted(n, std::max(0, -loop.integrators));
 }
 
 Polynomial denominator_squared(const OpenLoop& loop) {
-  Polynomial d(static_cast<std::size_t>(loop.integrators) + 1, 0.0);
-  d.back() = 1;
-  for (const double T : loop.lags) d = product(d, {1, T * T});
-  return d;
+  Polynomial d{1};
+  for (const Quadratic& f : loop.poles) d = product(d, squared(f));
+  return shifted(d, std::max(0, loop.integrators));
 }
 
 std::vector<double> gain_crossovers(const OpenLoop& loop) {
-  return roots_of_x(difference(numerator_squared(loop), denominator_squared(loop)));
+  std::vector<double> found = roots_of_x(difference(numerator_squared(loop), denominator_squared(loop)));
+  for (double& omega : found) omega = polished(loop, omega);
+  return found;
 }
 
 std::vector<double> gain_extremes(const OpenLoop& loop) {
@@ -88,35 +144,43 @@ std::vector<double> gain_extremes(const OpenLoop& loop) {
   return roots_of_x(difference(product(derivative(n), d), product(n, derivative(d))));
 }
 
-/// arg L has the slope n1 (n0 + n2 x)/|N|^2 - 1 - sum_i T_i/(1 + T_i^2 x), x = omega^2; equal lags share a
-/// denominator.
+/// arg L has the slope sum_i +-a_i (1 + b_i x)/|1 + a_i s + b_i s^2|^2 - Td, x = omega^2; equal factors share a
+/// denominator, and a zero that is a pole cancels.
 std::vector<double> phase_extremes(const OpenLoop& loop) {
-  const auto& [n0, n1, n2] = loop.numerator;
-  const Polynomial n = numerator_squared(loop);
-  std::map<double, int> lags;
-  for (const double T : loop.lags) ++lags[T];
-  const auto denominators_but = [&](double left_out) {
-    Polynomial d{1};
-    for (const auto& [T, count] : lags)
-      if (T != left_out) d = product(d, {1, T * T});
-    return d;
-  };
-  Polynomial slope = product(difference({n1 * n0, n1 * n2}, n), denominators_but(kNaN));
-  for (const auto& [T, count] : lags)
-    slope = difference(slope, product(product(n, {count * T}), denominators_but(T)));
+  std::map<std::pair<double, double>, int> factors;
+  for (const Quadratic& f : loop.zeros) ++factors[{f.a, f.b}];
+  for (const Quadratic& f : loop.poles) --factors[{f.a, f.b}];
+  std::erase_if(factors, [](const auto& entry) { return entry.second == 0; });
+  Polynomial all{loop.dead_time};
+  for (const auto& [at, count] : factors) all = product(all, squared({at.first, at.second}));
+  Polynomial slope = scaled(-1, all);
+  for (const auto& [at, count] : factors) {
+    Polynomial term{-count * at.first, -count * at.first * at.second};
+    for (const auto& [other, other_count] : factors)
+      if (other != at) term = product(term, squared({other.first, other.second}));
+    slope = difference(slope, term);
+  }
   return roots_of_x(slope);
 }
 
 double high_frequency_gain(const OpenLoop& loop) {
   if (excess(loop) < 0) return 0;
   if (excess(loop) > 0) return kInf;
-  double gain = loop.numerator[2] != 0   ? loop.numerator[2]
-                : loop.numerator[1] != 0 ? loop.numerator[1]
-                                         : loop.numerator[0];
-  for (const double T : loop.lags) gain /= T;
+  double gain = std::abs(loop.gain);
+  for (const Quadratic& f : loop.zeros) gain *= leading(f);
+  for (const Quadratic& f : loop.poles) gain /= leading(f);
   return gain;
 }
 
-double low_frequency_gain(const OpenLoop& loop) { return loop.integrators > 0 ? kInf : loop.numerator[0]; }
+double low_frequency_gain(const OpenLoop& loop) {
+  return loop.integrators > 0 ? kInf : loop.integrators < 0 ? 0 : std::abs(loop.gain);
+}
+
+int unstable_poles(const OpenLoop& loop) {
+  int count = 0;
+  for (const Quadratic& f : loop.poles)
+    if (f.a < 0) count += f.b != 0 ? 2 : 1;
+  return count;
+}
 
 }  // namespace portrait

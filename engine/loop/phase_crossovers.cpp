@@ -15,10 +15,10 @@ double odd_multiple_next_to(double phase, bool down) {
   return pi * (2 * (down ? std::floor(turns) : std::ceil(turns)) + 1);
 }
 
-/// Somewhere beyond `from` where the phase, which falls for ever, is below `target`.
-double beyond(const OpenLoop& loop, double from, double target) {
+/// Somewhere beyond `from` where the phase, monotonic from there on, is past `target`.
+double beyond(const OpenLoop& loop, double from, double target, bool down) {
   double omega = 2 * from + 1;
-  while (phase_at(loop, omega) > target) omega *= 2;
+  while (std::isfinite(omega) && (phase_at(loop, omega) > target) == down) omega *= 2;
   return omega;
 }
 
@@ -40,11 +40,15 @@ double omega_of_phase(const OpenLoop& loop, double target, double a, double b) {
 }  // namespace
 
 std::optional<double> nearest_phase_crossover(const OpenLoop& loop, double from, double to) {
-  const double at_from = phase_at(loop, from), at_to = to == kInf ? -kInf : phase_at(loop, to);
-  const double target = odd_multiple_next_to(at_from, at_to < at_from);
-  if (at_to < at_from ? target < at_to : target > at_to) return std::nullopt;
-  if (to == 0 && target == at_to) return std::nullopt;  // two integrators begin at -pi
-  return omega_of_phase(loop, target, from, to == kInf ? beyond(loop, from, target) : to);
+  const double at_from = phase_at(loop, from), at_to = to == kInf ? high_frequency_phase(loop) : phase_at(loop, to);
+  const bool down = at_to < at_from;
+  const double target = odd_multiple_next_to(at_from, down);
+  if (down ? target < at_to : target > at_to) return std::nullopt;
+  if ((to == 0 || to == kInf) && target == at_to) return std::nullopt;  // a limit that is only tended to
+  if (to != kInf) return omega_of_phase(loop, target, from, to);
+  const double far = beyond(loop, from, target, down);
+  if (!std::isfinite(far)) return std::nullopt;  // the limit, but for rounding
+  return omega_of_phase(loop, target, from, far);
 }
 
 std::vector<double> phase_crossovers(const OpenLoop& loop, double highest) {

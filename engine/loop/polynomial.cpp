@@ -68,6 +68,41 @@ Polynomial difference(const Polynomial& p, const Polynomial& q) {
   return r;
 }
 
+Polynomial scaled(double factor, Polynomial p) {
+  for (double& a : p) a *= factor;
+  return p;
+}
+
+Polynomial trimmed(Polynomial p) {
+  while (!p.empty() && p.back() == 0) p.pop_back();
+  return p;
+}
+
+int degree(const Polynomial& p) {
+  int last = static_cast<int>(p.size()) - 1;
+  while (last >= 0 && p[static_cast<std::size_t>(last)] == 0) --last;
+  return last;
+}
+
+Polynomial in_time_unit(Polynomial p, double unit) {
+  double power = 1;
+  for (double& a : p) a /= power, power *= unit;
+  return p;
+}
+
+Division divided(const Polynomial& p, const Polynomial& d) {
+  Division by{{}, p};
+  if (p.size() < d.size()) return by;
+  by.quotient.assign(p.size() - d.size() + 1, 0.0);
+  for (std::size_t i = by.quotient.size(); i-- > 0;) {
+    const double q = by.rest[i + d.size() - 1] / d.back();
+    by.quotient[i] = q;
+    for (std::size_t j = 0; j < d.size(); ++j) by.rest[i + j] -= q * d[j];
+  }
+  by.rest.resize(d.size() - 1);
+  return by;
+}
+
 std::vector<double> positive_sign_changes(const Polynomial& p_given) {
   const Polynomial p = stripped(p_given);
   if (p.size() < 2) return {};

@@ -12,6 +12,20 @@ double value(const Polynomial& p, double x);
 Polynomial derivative(const Polynomial& p);
 Polynomial product(const Polynomial& p, const Polynomial& q);
 Polynomial difference(const Polynomial& p, const Polynomial& q);
+Polynomial scaled(double factor, Polynomial p);
+/// p without the zeros above its highest power; empty for 0.
+Polynomial trimmed(Polynomial p);
+/// Of p as it stands: -1 for 0.
+int degree(const Polynomial& p);
+/// p(s/unit), with s measured per another unit of time.
+Polynomial in_time_unit(Polynomial p, double unit);
+
+/// p = quotient * d + rest, the rest of lower degree than d.
+struct Division {
+  Polynomial quotient, rest;
+};
+/// REQUIRES: d is trimmed and not 0.
+Division divided(const Polynomial& p, const Polynomial& d);
 
 /// The points x > 0 at which p changes sign, increasing.
 /// method    between two neighbouring stationary points p is monotonic: the roots of p' separate those of p

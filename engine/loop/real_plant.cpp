@@ -30,34 +30,7 @@ std::optional<std::string> why_invalid(const RealPlant& plant) {
 double input_gain(const RealPlant& plant) { return plant.K * std::pow(plant.Td, integrators(plant.family)); }
 
 double scale(Measure measure, const RealPlant& plant) {
-  const MeasureInfo& m = info(measure);
-  const double gain = std::abs(input_gain(plant));
-  const double y = m.step == 'd' ? gain : 1;
-  const double u = m.step == 'd' ? 1 : 1 / gain;
-  switch (m.unit) {
-    case Unit::one:
-    case Unit::degree:
-      return 1;
-    case Unit::time:
-      return plant.Td;
-    case Unit::output:
-      return y;
-    case Unit::output_time:
-      return y * plant.Td;
-    case Unit::output_time2:
-      return y * plant.Td * plant.Td;
-    case Unit::output2_time:
-      return y * y * plant.Td;
-    case Unit::output2_time2:
-      return y * y * plant.Td * plant.Td;
-    case Unit::input:
-      return u;
-    case Unit::input_per_output:
-      return 1 / gain;
-    case Unit::per_time:
-      return 1 / plant.Td;
-  }
-  return kNaN;
+  return scale(measure, Units{.time = plant.Td, .gain = input_gain(plant)});
 }
 
 RealController controller_for(const Loop& loop, const RealPlant& plant) {

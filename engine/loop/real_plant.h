@@ -13,6 +13,7 @@
 
 #include "engine/loop/forms.h"
 #include "engine/loop/loop.h"
+#include "engine/loop/units.h"
 #include "engine/measures/catalogue.h"
 
 namespace portrait {

@@ -34,35 +34,46 @@ Bounds reciprocal(const Bounds& f, double least) {
   return {1 / least, rate / least, (f.second / least + 2 * rate * rate) / least};
 }
 
-/// N(jw), a <= w <= b.
-Bounds numerator_bounds(const OpenLoop& loop, double a, double b) {
-  const auto& [n0, n1, n2] = loop.numerator;
-  const double real = std::max(std::abs(n0 - n2 * a * a), std::abs(n0 - n2 * b * b));
-  return {std::hypot(real, n1 * b), std::hypot(n1, 2 * n2 * b), 2 * n2};
+/// Least and largest |1 + a jw - b w^2| over an interval: the square is a parabola in w^2.
+struct Range {
+  double least, most;
+};
+
+Range magnitude(const Quadratic& f, double from, double to) {
+  const auto at = [&](double x) { return std::hypot(1 - f.b * x, f.a * std::sqrt(x)); };
+  const double x0 = from * from, x1 = to * to, at_x0 = at(x0), at_x1 = at(x1);
+  const double lowest = f.b == 0 ? -1 : (f.b - 0.5 * f.a * f.a) / (f.b * f.b);
+  const double least = lowest > x0 && lowest < x1 ? at(lowest) : std::min(at_x0, at_x1);
+  return {least, std::max(at_x0, at_x1)};
 }
 
-/// D(jw): every factor's magnitude grows with w, and its slope is constant.
-Bounds denominator_bounds(const OpenLoop& loop, double b) {
-  Bounds D{1, 0, 0};
-  for (int i = 0; i < loop.integrators; ++i) D = product(D, {b, 1, 0});
-  for (const double T : loop.lags) D = product(D, {std::hypot(1, T * b), T, 0});
-  return D;
+Bounds factor_bounds(const Quadratic& f, double most, double b) {
+  return {most, std::hypot(f.a, 2 * f.b * b), 2 * std::abs(f.b)};
 }
 
-double least_denominator(const OpenLoop& loop, double a) {
-  double least = std::pow(a, loop.integrators);
-  for (const double T : loop.lags) least *= std::hypot(1, T * a);
-  return least;
+/// Product of factors over an interval, or of their inverses.
+Bounds product_bounds(const std::vector<Quadratic>& factors, double a, double b) {
+  Bounds all{1, 0, 0};
+  for (const Quadratic& f : factors) all = product(all, factor_bounds(f, magnitude(f, a, b).most, b));
+  return all;
 }
 
-double least_numerator(const OpenLoop& loop, double a, double b, double steepest) {
-  const auto& [n0, n1, n2] = loop.numerator;
-  const double middle = 0.5 * (a + b);
-  return std::hypot(n0 - n2 * middle * middle, n1 * middle) - steepest * 0.5 * (b - a);
+Bounds inverse_bounds(const std::vector<Quadratic>& factors, double a, double b) {
+  Bounds all{1, 0, 0};
+  for (const Quadratic& f : factors) {
+    const auto [least, most] = magnitude(f, a, b);
+    if (!(least > 0)) return {kInf, kInf, kInf};
+    all = product(all, reciprocal(factor_bounds(f, most, b), least));
+  }
+  return all;
 }
 
-/// e^{jw} and e^{-jw}
-constexpr Bounds kTurn{1, 1, 1};
+/// |w|^power and its slopes, power of any sign.
+Bounds power_bounds(int power, double a, double b) {
+  const auto at = [&](int p) { return std::pow(p >= 0 ? b : a, p); };
+  const double first = std::abs(power), second = std::abs(power * (power - 1));
+  return {at(power), first == 0 ? 0 : first * at(power - 1), second == 0 ? 0 : second * at(power - 2)};
+}
 
 class PeakSearch {
  public:
@@ -156,24 +167,29 @@ class PeakSearch {
     return std::min((one_over ? 1 : most.zeroth) / nearest, fine);
   }
 
+  /// e^{-+jwTd} and c, or 1/c
+  Bounds turn_bounds(double gain) const {
+    const double Td = loop_.dead_time, c = std::abs(gain);
+    return {c, c * Td, c * Td * Td};
+  }
+
   Bounds gain_bounds(double a, double b) const {
-    const Bounds one_over_D = reciprocal(denominator_bounds(loop_, b), least_denominator(loop_, a));
-    return product(product(numerator_bounds(loop_, a, b), kTurn), one_over_D);
+    const Bounds N = product(product_bounds(loop_.zeros, a, b), turn_bounds(loop_.gain));
+    return product(product(N, power_bounds(-loop_.integrators, a, b)), inverse_bounds(loop_.poles, a, b));
   }
 
   Bounds inverse_gain_bounds(double a, double b) const {
-    const Bounds N = numerator_bounds(loop_, a, b);
-    const double least = least_numerator(loop_, a, b, N.first);
-    if (!(least > 0)) return {kInf, kInf, kInf};
-    return product(product(denominator_bounds(loop_, b), kTurn), reciprocal(N, least));
+    const Bounds D = product(product_bounds(loop_.poles, a, b), turn_bounds(1 / loop_.gain));
+    return product(product(D, power_bounds(loop_.integrators, a, b)), inverse_bounds(loop_.zeros, a, b));
   }
 
   double power(double gain) const { return function_ == Function::sensitivity ? 1 : gain; }
 
   Peak limit_at_zero() const {
     const double gain = low_frequency_gain(loop_);
-    if (function_ == Function::sensitivity) return {1 / (1 + gain), 0};
-    return {std::isinf(gain) ? 1 : gain / (1 + gain), 0};
+    if (std::isinf(gain)) return {function_ == Function::sensitivity ? 0.0 : 1.0, 0};
+    const double at_rest = loop_.gain < 0 ? -gain : gain;
+    return {power(gain) / std::abs(1 + at_rest), 0};
   }
 
   Peak limit_at_infinity() const {

@@ -20,9 +20,14 @@ int unstable_roots(const OpenLoop& loop) {
   }
   const double at_rest = low_frequency_gain(loop);
   PORTRAIT_CHECK(at_rest == 1 || falls == (at_rest < 1));
-  return -2 * turns;
+  const int of_sign = loop.gain < 0 && at_rest > 1 ? 1 : 0;
+  return unstable_poles(loop) - of_sign - 2 * turns;
 }
 
-bool is_stable(const OpenLoop& loop) { return high_frequency_gain(loop) < 1 && unstable_roots(loop) == 0; }
+bool is_stable(const OpenLoop& loop) {
+  // L = -1 at rest is a root at 0.
+  if (loop.gain < 0 && low_frequency_gain(loop) == 1) return false;
+  return high_frequency_gain(loop) < 1 && unstable_roots(loop) == 0;
+}
 
 }  // namespace portrait

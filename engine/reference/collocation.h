@@ -25,21 +25,22 @@ struct Nodes {
 /// REQUIRES: 1 <= stages <= 20.
 Nodes radau_nodes(int stages);
 
-/// A signal on a panel: row 0 its value at the start, row i what it has gained at c_i; a column a step (kSetpoint,
-/// kDisturbance). Gains keep the digits: a filter with a tiny tau_f takes the slope of y on a tiny panel, and slopes of
+/// A signal on a panel: row 0 its value at the start, row i what it has gained at c_i; a column a step of those that are
+/// simulated. Gains keep the digits: a filter with a tiny tau_f takes the slope of y on a tiny panel, and slopes of
 /// values rounded at the size of y cost TV 1e-7 and more.
-using PanelValues = Eigen::Matrix<double, Eigen::Dynamic, kSteps>;
+using PanelValues = Eigen::MatrixXd;
 /// States: a row a state, a column a step.
-using States = Eigen::Matrix<double, Eigen::Dynamic, kSteps>;
+using States = Eigen::MatrixXd;
 
 /// What one panel of a given length does with the open chain: linear maps, made once and applied in every interval.
 class Panel {
  public:
+  /// E and F of `chain` have a column for each step that is simulated.
   Panel(const OpenChain& chain, const Nodes& nodes, double length);
 
   double length() const { return length_; }
 
-  /// Goes over the panel with both steps side by side. `y`, `y_slope` are given at the s + 1 nodes; `x` is
+  /// Goes over the panel with all steps side by side. `y`, `y_slope` are given at the s + 1 nodes; `x` is
   /// replaced by the states at the panel's end; z, z' and u are written to `outputs[kZ], outputs[kSlope],
   /// outputs[kU]`.
   void advance(const PanelValues& y, const PanelValues& y_slope, States& x, PanelValues outputs[kOutputs]) const;

@@ -34,26 +34,40 @@ double largest_magnitude(std::span<const double> points) {
   return largest;
 }
 
-/// Whether a signal stays near its rest over the last dead time, counted from a whole number of dead times.
-bool is_settled(const std::vector<Piece>& pieces, SeriesOf signal, double noise, double at_rest, double horizon) {
+/// What lies beyond a time; a panel without dead time may begin before it.
+std::vector<Piece> pieces_from(const std::vector<Piece>& pieces, double from) {
+  constexpr double kEdge = 1e-9;
+  const auto first = std::find_if(pieces.begin(), pieces.end(),
+                                  [&](const Piece& piece) { return piece.start + piece.length > from + kEdge; });
+  std::vector<Piece> last(first, pieces.end());
+  if (!last.empty() && last.front().start < from - kEdge) {
+    Piece& cut = last.front();
+    const double x = 2 * (from - cut.start) / cut.length - 1, length = cut.start + cut.length - from;
+    cut = {from, length, restricted(cut.y, x, 1), restricted(cut.u, x, 1)};
+  }
+  return last;
+}
+
+/// Whether a signal stays near its rest from some time on.
+bool is_settled(const std::vector<Piece>& pieces, SeriesOf signal, double noise, double at_rest, double from) {
   const auto deviation = [&](std::span<const double> points) {
     double largest = 0;
     for (const double x : points) largest = std::max(largest, std::abs(x - at_rest));
     return largest;
   };
-  const double from = std::floor(horizon - 1) - 1e-9;
-  const auto first =
-      std::find_if(pieces.begin(), pieces.end(), [&](const Piece& piece) { return piece.start >= from; });
-  const std::vector<double> last = turning_points({first, pieces.end()}, signal, noise);
+  const std::vector<double> last = turning_points(pieces_from(pieces, from), signal, noise);
   const double at_end = deviation(std::span(last).subspan(1));
   return at_end <= kSettlingBand * deviation(turning_points(pieces, signal, noise));
 }
 
-constexpr std::array<StepMeasures, kSteps> kMeasuresOf = {kSetpointMeasures, kDisturbanceMeasures};
+constexpr std::array<StepMeasures, 2> kMeasuresOf = {kSetpointMeasures, kDisturbanceMeasures};
+
+/// Of a limit that is a quotient of coefficients.
+constexpr double kSameRest = 1e-12;
 
 /// Without integral action an error may remain for ever: then its integrals do not exist.
 void measure_error(const StepResponse& r, double target, const StepMeasures& names, MeasureRow& row) {
-  if (r.at_rest.y != target) return;
+  if (!(std::abs(r.at_rest.y - target) <= kSameRest)) return;
   const ErrorIntegrals of_error = error_integrals(r.pieces, target, r.y_noise);
   row[names.IAE] = of_error.IAE;
   row[names.ISE] = of_error.ISE;
@@ -79,21 +93,44 @@ void measure_step(const StepResponse& r, Step step, MeasureRow& row) {
 bool is_settled(const Response& response) {
   if (!response.quiet) return false;
   return std::all_of(response.steps.begin(), response.steps.end(), [&](const StepResponse& r) {
-    return is_settled(r.pieces, &Piece::y, r.y_noise, r.at_rest.y, response.horizon) &&
-           is_settled(r.pieces, &Piece::u, r.u_noise, r.at_rest.u, response.horizon);
+    if (r.pieces.empty()) return true;
+    return is_settled(r.pieces, &Piece::y, r.y_noise, r.at_rest.y, response.last_from) &&
+           is_settled(r.pieces, &Piece::u, r.u_noise, r.at_rest.u, response.last_from);
   });
+}
+
+Measured measured_responses(const Response& response) {
+  Measured measured;
+  measured.horizon = response.horizon;
+  measured.status = is_settled(response) ? Status::settled : Status::not_settled;
+  for (const Step step : kUsualSteps)
+    if (!response.steps[step].pieces.empty()) measure_step(response.steps[step], step, measured.measures);
+  return measured;
 }
 
 }  // namespace
 
 Measured measure(const Loop& loop, const Response& response, std::optional<double> sampling) {
-  Measured measured;
-  measured.horizon = response.horizon;
-  measured.status = is_settled(response) ? Status::settled : Status::not_settled;
-  measure_step(response.steps[kSetpoint], kSetpoint, measured.measures);
-  measure_step(response.steps[kDisturbance], kDisturbance, measured.measures);
+  Measured measured = measured_responses(response);
   measure_loop(loop, sampling, measured.measures);
   return measured;
+}
+
+Measured measure(const GeneralLoop& loop, Horizon horizon, const Accuracy& accuracy, std::span<const Step> steps) {
+  const OpenLoop open = open_loop(loop);
+  if (!is_stable(open)) return {.status = Status::unstable, .measures = {}, .horizon = 0};
+  Measured measured = measured_responses(simulate(loop, horizon, accuracy, steps));
+  measure_loop(open, measured.measures);
+  return measured;
+}
+
+MeasuredInUnits measure_in_units(const GeneralLoop& loop, Horizon horizon, std::span<const Step> steps) {
+  const NormalisedLoop inside = normalised(loop);
+  horizon.dead_times /= inside.units.time;
+  MeasuredInUnits found{measure(inside.loop, horizon, {}, steps), inside.units};
+  for (const Measure m : all_measures()) found.measured.measures[m] *= scale(m, inside.units);
+  found.measured.horizon *= inside.units.time;
+  return found;
 }
 
 Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy, std::optional<double> sampling) {

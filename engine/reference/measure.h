@@ -5,8 +5,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "engine/base/status.h"
+#include "engine/loop/general_loop.h"
 #include "engine/loop/horizon.h"
 #include "engine/loop/loop.h"
 #include "engine/measures/catalogue.h"
@@ -23,6 +25,19 @@ struct Measured {
 /// `sampling` in dead times, for noise_gain, which is NaN without it. REQUIRES: the loop is valid.
 Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {},
                  std::optional<double> sampling = std::nullopt);
+
+/// The same of a general loop, normalised, without noise_gain. REQUIRES: the loop is valid and normalised.
+Measured measure(const GeneralLoop& loop, Horizon horizon, const Accuracy& accuracy = {},
+                 std::span<const Step> steps = kUsualSteps);
+
+/// What `loop` does in its own units of time, input and output: simulated normalised, scaled back. Frequencies are per its
+/// unit of time, DM in it; steps have size one in its units.
+struct MeasuredInUnits {
+  Measured measured;
+  Units units;
+};
+/// A fixed `horizon` is in units of time of the loop. REQUIRES: the loop is valid, in any units.
+MeasuredInUnits measure_in_units(const GeneralLoop& loop, Horizon horizon, std::span<const Step> steps = kUsualSteps);
 
 /// The same from a response at hand. REQUIRES: `response` is that of a stable `loop`.
 Measured measure(const Loop& loop, const Response& response, std::optional<double> sampling = std::nullopt);

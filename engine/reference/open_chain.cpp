@@ -63,7 +63,7 @@ class Diagram {
 
  private:
   Signal unit(Eigen::Index i) const { return Signal::Unit(width_, i); }
-  Signal y() const { return unit(sizes_.total() + kY); }
+  Signal y() const { return unit(sizes_.total() + kY) + unit(sizes_.total() + kDelayed + kOutputStep); }
   Signal y_slope() const { return unit(sizes_.total() + kYSlope); }
   Signal w() const { return unit(sizes_.total() + kDelayed + kSetpoint); }
   Signal d() const { return unit(sizes_.total() + kDelayed + kDisturbance); }
@@ -158,10 +158,6 @@ class Diagram {
 OpenChain open_chain(const Loop& loop) {
   PORTRAIT_CHECK(!why_invalid(loop));
   return Diagram(loop).chain();
-}
-
-SteadyState steady_state(const Loop& loop, Step step) {
-  return step == kSetpoint ? rest_after_setpoint_step(loop) : rest_after_disturbance_step(loop);
 }
 
 }  // namespace portrait::reference

@@ -35,6 +35,7 @@ bool tail_is_small(const std::vector<double>& d) {
 void QuietWatch::take_in_new_intervals() {
   for (std::size_t step = 0; step < kSteps; ++step) {
     const StepResponse& r = response_.steps[step];
+    if (r.pieces.empty()) continue;
     auto& y = deviations_[2 * step];
     auto& u = deviations_[2 * step + 1];
     while ((y.size() + 1) * panels_ <= r.pieces.size()) {
@@ -50,10 +51,17 @@ void QuietWatch::take_in_new_intervals() {
 }
 
 bool QuietWatch::is_quiet() {
-  if (response_.steps[0].pieces.size() < next_look_ * panels_) return false;
+  if (pieces_so_far() < next_look_ * panels_) return false;
   next_look_ += std::max<std::size_t>(8, next_look_ / 10);
   take_in_new_intervals();
-  return std::all_of(deviations_.begin(), deviations_.end(), tail_is_small);
+  return std::all_of(deviations_.begin(), deviations_.end(),
+                     [](const auto& of_signal) { return of_signal.empty() || tail_is_small(of_signal); });
+}
+
+std::size_t QuietWatch::pieces_so_far() const {
+  std::size_t most = 0;
+  for (const StepResponse& step : response_.steps) most = std::max(most, step.pieces.size());
+  return most;
 }
 
 }  // namespace portrait::reference

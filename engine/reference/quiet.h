@@ -25,6 +25,7 @@ class QuietWatch {
 
  private:
   void take_in_new_intervals();
+  std::size_t pieces_so_far() const;
 
   const Response& response_;
   std::size_t panels_;

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
 #include "engine/loop/parameters.h"
 #include "engine/reference/collocation.h"
+#include "engine/reference/delay_free.h"
 #include "engine/reference/quiet.h"
 
 namespace portrait::reference {
@@ -54,17 +57,42 @@ struct Extent {
   double noise = 0;
 };
 
+/// What is simulated: E and F of the chain have a column for each step.
+struct Simulated {
+  OpenChain chain;
+  std::vector<Step> steps;
+  std::array<SteadyState, kSteps> at_rest;
+  std::string name;  ///< what reproduces it
+};
+
+template <typename AnyLoop>
+Simulated simulated(const AnyLoop& loop, std::span<const Step> steps, std::string name) {
+  Simulated found{open_chain(loop), {steps.begin(), steps.end()}, {}, std::move(name)};
+  const Eigen::MatrixXd E = found.chain.E, F = found.chain.F;
+  found.chain.E.resize(E.rows(), static_cast<Eigen::Index>(steps.size()));
+  found.chain.F.resize(F.rows(), static_cast<Eigen::Index>(steps.size()));
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    found.chain.E.col(static_cast<Eigen::Index>(i)) = E.col(steps[i]);
+    found.chain.F.col(static_cast<Eigen::Index>(i)) = F.col(steps[i]);
+    found.at_rest[steps[i]] = steady_state(loop, steps[i]);
+  }
+  return found;
+}
+
 /// Runs the loop on one fixed partition.
 class Run {
  public:
-  Run(const Loop& loop, const OpenChain& chain, const Nodes& nodes, const Partition& partition, double tolerance)
-      : chain_(chain), nodes_(nodes), tolerance_(tolerance), coarse_(partition.size(), false) {
-    for (const double length : partition) panels_.emplace_back(chain, nodes, length);
-    x_ = States::Zero(chain.states(), Eigen::Index{kSteps});
-    const PanelValues zero = PanelValues::Zero(nodes.stages() + 1, Eigen::Index{kSteps});
+  Run(const Simulated& simulated, const Nodes& nodes, const Partition& partition, double tolerance)
+      : chain_(simulated.chain),
+        steps_(simulated.steps),
+        nodes_(nodes),
+        tolerance_(tolerance),
+        coarse_(partition.size(), false) {
+    for (const double length : partition) panels_.emplace_back(chain_, nodes, length);
+    x_ = States::Zero(chain_.states(), columns());
+    const PanelValues zero = PanelValues::Zero(nodes.stages() + 1, columns());
     delayed_.assign(partition.size(), {zero, zero});
-    for (int step = 0; step < kSteps; ++step)
-      response_.steps[step].at_rest = steady_state(loop, static_cast<Step>(step));
+    for (const Step step : steps_) response_.steps[step].at_rest = simulated.at_rest[step];
   }
 
   /// One dead time more; false when a panel was too coarse for it.
@@ -90,26 +118,33 @@ class Run {
 
   Response finished(double horizon, bool quiet) {
     response_.horizon = horizon;
+    response_.last_from = std::floor(horizon - 1);  // the whole last dead time
     response_.quiet = quiet;
-    for (int step = 0; step < kSteps; ++step) {
-      response_.steps[step].y_noise = extents_[step][kZ].noise;
-      response_.steps[step].u_noise = extents_[step][kU].noise;
-      cut_off(response_.steps[step].pieces, horizon);
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      StepResponse& found = response_.steps[steps_[i]];
+      found.y_noise = extents_[i][kZ].noise;
+      found.u_noise = extents_[i][kU].noise;
+      cut_off(found.pieces, horizon);
     }
     return std::move(response_);
   }
 
  private:
   void record(std::size_t panel, double start, const PanelValues& y, const PanelValues outputs[kOutputs]) {
-    for (int step = 0; step < kSteps; ++step) {
-      const Series z = nodes_.to_series * outputs[kZ].col(step), u = nodes_.to_series * outputs[kU].col(step);
-      if (is_coarse(z, kZ, step) || is_coarse(u, kU, step)) coarse_[panel] = true;
-      response_.steps[step].pieces.push_back({start, panels_[panel].length(), nodes_.to_series * y.col(step), u});
+    for (Eigen::Index i = 0; i < columns(); ++i) {
+      const Series z = nodes_.to_series * outputs[kZ].col(i), u = nodes_.to_series * outputs[kU].col(i);
+      if (is_coarse(z, kZ, i) || is_coarse(u, kU, i)) coarse_[panel] = true;
+      const Step step = steps_[static_cast<std::size_t>(i)];
+      Series measured = nodes_.to_series * y.col(i);
+      if (step == kOutputStep) measured(0) += 1;
+      response_.steps[step].pieces.push_back({start, panels_[panel].length(), std::move(measured), u});
     }
   }
 
-  bool is_coarse(const Series& c, Output output, int step) {
-    Extent& extent = extents_[step][output];
+  Eigen::Index columns() const { return static_cast<Eigen::Index>(steps_.size()); }
+
+  bool is_coarse(const Series& c, Output output, Eigen::Index step) {
+    Extent& extent = extents_[static_cast<std::size_t>(step)][output];
     extent.largest = std::max(extent.largest, bound(c));
     largest_ = std::max(largest_, extent.largest);
     // Solving for all stages at once leaks rounding from every state into every other.
@@ -128,6 +163,7 @@ class Run {
   }
 
   const OpenChain& chain_;
+  std::vector<Step> steps_;
   const Nodes& nodes_;
   double tolerance_;
   std::vector<Panel> panels_;
@@ -152,6 +188,19 @@ std::optional<Response> run_to(Run& run, Horizon horizon) {
   return run.finished(end, !horizon.automatic);
 }
 
+Response by_steps(const Simulated& simulated, Horizon horizon, const Accuracy& accuracy) {
+  PORTRAIT_CHECK(horizon.automatic || horizon.dead_times > 0);
+  const Nodes nodes = radau_nodes(accuracy.stages);
+  Partition partition = first_partition(accuracy.least_panels, simulated.chain.fastest);
+  while (partition.size() <= kMostPanels) {
+    Run run(simulated, nodes, partition, accuracy.tolerance);
+    if (auto response = run_to(run, horizon)) return *std::move(response);
+    partition = halved(partition, run.coarse());
+  }
+  throw std::runtime_error(fmt::format(
+      "the reference simulation cannot resolve this loop with {} panels a dead time: {}", kMostPanels, simulated.name));
+}
+
 const Piece& piece_at(const StepResponse& response, double t) {
   const auto after = std::upper_bound(response.pieces.begin(), response.pieces.end(), t,
                                       [](double time, const Piece& piece) { return time < piece.start; });
@@ -163,19 +212,14 @@ double local(const Piece& piece, double t) { return std::min(1.0, 2 * (t - piece
 
 }  // namespace
 
-Response simulate(const Loop& loop, Horizon horizon, const Accuracy& accuracy) {
-  PORTRAIT_CHECK(horizon.automatic || horizon.dead_times > 0);
-  const OpenChain chain = open_chain(loop);
-  const Nodes nodes = radau_nodes(accuracy.stages);
-  Partition partition = first_partition(accuracy.least_panels, chain.fastest);
-  while (partition.size() <= kMostPanels) {
-    Run run(loop, chain, nodes, partition, accuracy.tolerance);
-    if (auto response = run_to(run, horizon)) return *std::move(response);
-    partition = halved(partition, run.coarse());
-  }
-  throw std::runtime_error(
-      fmt::format("the reference simulation cannot resolve this loop with {} panels a dead time: {}", kMostPanels,
-                  simulate_command(loop)));
+Response simulate(const Loop& loop, Horizon horizon, const Accuracy& accuracy, std::span<const Step> steps) {
+  return by_steps(simulated(loop, steps, simulate_command(loop)), horizon, accuracy);
+}
+
+Response simulate(const GeneralLoop& loop, Horizon horizon, const Accuracy& accuracy, std::span<const Step> steps) {
+  if (loop.plant.dead_time == 0) return simulate_without_dead_time(loop, horizon, accuracy, steps);
+  PORTRAIT_CHECK_EQ(loop.plant.dead_time, 1.0);
+  return by_steps(simulated(loop, steps, "a loop of general transfer functions"), horizon, accuracy);
 }
 
 double y_at(const StepResponse& response, double t) {

@@ -1,4 +1,4 @@
-/// The reference simulation: the responses of one loop to both unit steps, by the method of steps.
+/// The reference simulation: the responses of one loop to unit steps, by the method of steps.
 ///
 /// Slow, scalar and general, and the judge of every faster path. One dead time after the other, the measured
 /// output is the plant's output of the interval before, so each interval is an ordinary linear system with a
@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "engine/loop/horizon.h"
@@ -38,8 +39,9 @@ struct StepResponse {
 };
 
 struct Response {
-  std::array<StepResponse, kSteps> steps;  ///< by Step
+  std::array<StepResponse, kSteps> steps;  ///< by Step; without pieces where a step was not simulated
   double horizon = 0;                      ///< in dead times
+  double last_from = 0;                    ///< from here on a settled response lies within its band
   bool quiet = false;                      ///< an automatic horizon was long enough, see `simulate`
 };
 
@@ -49,11 +51,22 @@ struct Accuracy {
   double tolerance = 1e-11;  ///< of a signal's largest value, for its last coefficients; inf: never refine
 };
 
-/// Both step responses. An automatic horizon ends when the deviations from rest, going on as they decayed
+/// What a portrait needs.
+inline constexpr std::array<Step, 2> kUsualSteps = {kSetpoint, kDisturbance};
+inline constexpr std::array<Step, 3> kAllSteps = {kSetpoint, kDisturbance, kOutputStep};
+
+/// The responses to some steps. An automatic horizon ends when the deviations from rest, going on as they decayed
 /// over the last half of the run, would change no integral by more than 1e-10 of its value; at kHorizonCap it
 /// gives up and `quiet` is false. A loop that grows beyond 1e12 of its step is ended there.
 /// REQUIRES: the loop is valid; for an automatic horizon also stable.
-Response simulate(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {});
+Response simulate(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {},
+                  std::span<const Step> steps = kUsualSteps);
+
+/// The same of a general loop, normalised: its dead time is 1, or 0. Without dead time the loop is an ordinary linear
+/// system, taken from panel to panel by its matrix exponential; panels are halved and doubled as the responses need.
+/// REQUIRES: as above; the loop is normalised.
+Response simulate(const GeneralLoop& loop, Horizon horizon, const Accuracy& accuracy = {},
+                  std::span<const Step> steps = kUsualSteps);
 
 /// The signal at one instant (the limit from the right at an edge). REQUIRES: 0 <= t <= horizon.
 double y_at(const StepResponse& response, double t);

@@ -105,7 +105,7 @@ struct OnTheLimit {
 
 std::complex<double> denominator(const OpenLoop& loop, std::complex<double> s) {
   std::complex<double> D = std::pow(s, loop.integrators);
-  for (const double T : loop.lags) D *= 1.0 + T * s;
+  for (const Quadratic& f : loop.poles) D *= 1.0 + s * (f.a + s * f.b);
   return D;
 }
 
@@ -123,11 +123,12 @@ std::optional<OnTheLimit> loop_on_the_limit(oracle::Random& random, double omega
   if (!(s.kappa > 0 && s.tau_i > 0 && s.delta >= 0) || why_invalid(loop)) return std::nullopt;
   const OpenLoop open = open_loop(loop);
   if (high_frequency_gain(open) > 0.99) return std::nullopt;
-  const auto& [n0, n1, n2] = open.numerator;
+  const double n0 = has_integral_action(s) ? s.kappa / s.tau_i : s.kappa, n1 = has_integral_action(s) ? s.kappa : s.delta,
+               n2 = has_integral_action(s) ? s.delta : 0;
   const std::complex<double> N = n0 + jw * (n1 + jw * n2), turn = std::exp(-jw);
   std::complex<double> slope = n1 + 2.0 * n2 * jw - N;  // (N' - N) e^{-s} + D', D'/D summed factor by factor
   std::complex<double> growth = static_cast<double>(open.integrators) / jw;
-  for (const double T : open.lags) growth += T / (1.0 + T * jw);
+  for (const Quadratic& f : open.poles) growth += f.a / (1.0 + f.a * jw);  // lags
   const double rises = (-N * turn / (slope * turn + denominator(open, jw) * growth)).real();
   if (std::abs(rises) < 1e-3) return std::nullopt;
   return OnTheLimit{loop, rises};

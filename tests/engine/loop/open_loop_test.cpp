@@ -28,19 +28,31 @@ void for_random_loops(std::uint64_t seed, Check check) {
   }
 }
 
+/// Of loops with real poles.
+std::vector<double> lags(const OpenLoop& open) {
+  std::vector<double> T;
+  for (const Quadratic& f : open.poles) T.push_back(f.b == 0 ? f.a : kNaN);
+  return T;
+}
+
 TEST(OpenLoop, HasTheLoopsFactors) {
   const Setting s{.kappa = 0.5, .tau_i = 4, .delta = 0.25, .tau_1 = 3, .tau_f = 0.1};
   const OpenLoop fotd = open_loop({{Plant::fotd, 2, Prefilter::none}, s});
-  EXPECT_EQ(fotd.numerator, (std::array{0.125, 0.5, 0.25}));
+  EXPECT_EQ(fotd.gain, 0.125);
   EXPECT_EQ(fotd.integrators, 1);
-  EXPECT_EQ(fotd.lags, (std::vector<double>{3, 0.1, 0.1}));
+  ASSERT_EQ(fotd.zeros.size(), 2u);  // of 1 + 4 s + 2 s^2
+  EXPECT_NEAR(fotd.zeros[0].a + fotd.zeros[1].a, 4, 1e-15);
+  EXPECT_NEAR(fotd.zeros[0].a * fotd.zeros[1].a, 2, 1e-15);
+  EXPECT_EQ(lags(fotd), (std::vector<double>{3, 0.1, 0.1}));
 
   Setting pd = s;
   pd.tau_i = kInf;
   const OpenLoop dipdt = open_loop({{Plant::dipdt, 0, Prefilter::none}, pd});
-  EXPECT_EQ(dipdt.numerator, (std::array{0.5, 0.25, 0.0}));
+  EXPECT_EQ(dipdt.gain, 0.5);
+  ASSERT_EQ(dipdt.zeros.size(), 1u);
+  EXPECT_EQ(dipdt.zeros[0].a, 0.5);
   EXPECT_EQ(dipdt.integrators, 2);
-  EXPECT_TRUE(dipdt.lags.empty());
+  EXPECT_TRUE(dipdt.poles.empty());
 }
 
 TEST(OpenLoop, ResponseIsControllerTimesFilterTimesPlant) {
@@ -131,8 +143,9 @@ TEST(OpenLoop, GainSquaredIsTheRatioOfThePolynomials) {
     const double omega = random.log_uniform(1e-3, 1e2), x = omega * omega;
     const double squared = value(numerator_squared(open), x) / value(denominator_squared(open), x);
     const double gain = gain_at(open, omega);
-    const auto& [n0, n1, n2] = open.numerator;
-    const double cancelled = std::pow((n0 + n1 * omega + n2 * x) / std::abs(Complex(n0 - n2 * x, n1 * omega)), 2);
+    double cancelled = 1;
+    for (const Quadratic& f : open.zeros)
+      cancelled *= std::pow((1 + f.a * omega + f.b * x) / std::abs(Complex(1 - f.b * x, f.a * omega)), 2);
     EXPECT_NEAR(squared, gain * gain, 1e-14 * cancelled * gain * gain);
   });
 }

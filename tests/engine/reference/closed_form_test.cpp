@@ -35,7 +35,7 @@ void expect_signal(const oracle::Signal& exact, double (*at)(const StepResponse&
 void expect_responses(const Loop& loop, int pieces, int dead_times, double tolerance) {
   SCOPED_TRACE(simulate_command(loop));
   const Response found = simulate(loop, Horizon::fixed(dead_times));
-  for (int step = 0; step < kSteps; ++step) {
+  for (const Step step : kUsualSteps) {
     MethodOfSteps exact(loop, step == kSetpoint ? 1 : 0, step == kDisturbance ? 1 : 0, pieces);
     exact.run_to(dead_times);
     const StepResponse& response = found.steps[static_cast<std::size_t>(step)];

@@ -13,6 +13,7 @@ namespace portrait::reference {
 namespace {
 
 const double kRoot6 = std::sqrt(6.0);
+constexpr Eigen::Index kColumns = 2;  ///< setpoint and disturbance
 
 /// x' = lambda x + q(t) + v_w + 2 v_d,  z = x,  u = q
 OpenChain scalar_chain(double lambda) {
@@ -23,14 +24,14 @@ OpenChain scalar_chain(double lambda) {
   chain.C = Eigen::Vector3d(1, lambda, 0);
   chain.D = Eigen::MatrixXd::Zero(kOutputs, kDelayed);
   chain.D(kU, kY) = 1;
-  chain.F = Eigen::MatrixXd::Zero(kOutputs, kSteps);
+  chain.F = Eigen::MatrixXd::Zero(kOutputs, kColumns);
   chain.fastest = kInf;
   return chain;
 }
 
 /// Values at the nodes as PanelValues has them: the first, then what is gained since.
 PanelValues panel_values(const Eigen::VectorXd& at_nodes) {
-  PanelValues values = at_nodes.replicate(1, kSteps);
+  PanelValues values = at_nodes.replicate(1, kColumns);
   for (Eigen::Index i = 1; i < values.rows(); ++i) values.row(i) -= values.row(0);
   return values;
 }
@@ -46,8 +47,8 @@ Crossed cross(double lambda, int stages, double start, double length, double x0,
   const OpenChain chain = scalar_chain(lambda);
   const Nodes nodes = radau_nodes(stages);
   const PanelValues y = panel_values(nodes.at.unaryExpr([&](double c) { return q(start + length * c); }));
-  Crossed crossed{States::Constant(1, Eigen::Index{kSteps}, x0), {}};
-  const PanelValues no_slope = PanelValues::Zero(stages + 1, Eigen::Index{kSteps});
+  Crossed crossed{States::Constant(1, kColumns, x0), {}};
+  const PanelValues no_slope = PanelValues::Zero(stages + 1, kColumns);
   Panel(chain, nodes, length).advance(y, no_slope, crossed.x, crossed.outputs);
   return crossed;
 }
@@ -163,12 +164,12 @@ TEST(Panel, KeepsTheDigitsOfASlopeOnATinyPanel) {
   const auto q = [&](double t) { return (large + t) / tau_f - 1; };
   const OpenChain chain = scalar_chain(-1 / tau_f);
   const Nodes nodes = radau_nodes(14);
-  PanelValues y = PanelValues::Zero(15, Eigen::Index{kSteps});
+  PanelValues y = PanelValues::Zero(15, kColumns);
   y.row(0).setConstant(q(0));
   y.bottomRows(14).colwise() = nodes.at.tail(14) * 2;  // (t / tau_f) on a panel of length 2 tau_f
-  Crossed crossed{States::Constant(1, Eigen::Index{kSteps}, large - tau_f), {}};
+  Crossed crossed{States::Constant(1, kColumns, large - tau_f), {}};
   Panel(chain, nodes, 2 * tau_f)
-      .advance(y, PanelValues::Zero(15, Eigen::Index{kSteps}), crossed.x, crossed.outputs);
+      .advance(y, PanelValues::Zero(15, kColumns), crossed.x, crossed.outputs);
   for (int i = 1; i <= 14; ++i) EXPECT_NEAR(crossed.outputs[kZ](i, kSetpoint) / tau_f, 2 * nodes.at(i), 1e-10);
 }
 

@@ -35,7 +35,7 @@ Errors errors(const Loop& loop, const Response& exact, int stages, int panels) {
   const Response coarse = simulate(loop, Horizon::fixed(kHorizon), {stages, panels, kInf});
   EXPECT_EQ(coarse.steps[0].pieces.size(), static_cast<std::size_t>(kHorizon) * static_cast<std::size_t>(panels));
   Errors e;
-  for (int step = 0; step < kSteps; ++step) {
+  for (const Step step : kUsualSteps) {
     const StepResponse& a = coarse.steps[static_cast<std::size_t>(step)];
     const StepResponse& b = exact.steps[static_cast<std::size_t>(step)];
     for (double t = 1.013; t < kHorizon; t += 0.0171)
