@@ -65,8 +65,10 @@ std::optional<std::string> why_plant_invalid(const GeneralPlant& plant) {
 }
 
 std::optional<std::string> why_controller_invalid(const GeneralController& c) {
-  if (const auto reason = why_invalid(TransferFunction{c.on_setpoint, c.denominator})) return "controller: " + *reason;
-  if (const auto reason = why_invalid(TransferFunction{c.on_output, c.denominator})) return "controller: " + *reason;
+  if (const auto reason = why_invalid(TransferFunction{c.on_setpoint, c.denominator}))
+    return "controller: " + *reason;
+  if (const auto reason = why_invalid(TransferFunction{c.on_output, c.denominator}))
+    return "controller: " + *reason;
   if (const auto reason = why_invalid(c.prefilter)) return "prefilter: " + *reason;
   if (degree(c.on_output) < 0) return "the controller is 0: it must answer to the output";
   const int D = degree(c.denominator);
@@ -76,8 +78,7 @@ std::optional<std::string> why_controller_invalid(const GeneralController& c) {
   if (degree(c.on_output) > D + 1)
     return fmt::format("the controller is improper: degree {} over {}; a filter of higher order makes it proper",
                        degree(c.on_output), D);
-  if (relative_degree(c.prefilter) < 0)
-    return "the prefilter is improper: a step through it is an impulse";
+  if (relative_degree(c.prefilter) < 0) return "the prefilter is improper: a step through it is an impulse";
   for (const std::complex<double>& pole : roots(c.prefilter.denominator))
     if (!(pole.real() < 0)) return fmt::format("the prefilter has a pole at {}: it is not stable", place(pole));
   if (has_root_at_0(c.prefilter.denominator)) return "the prefilter has a pole at s = 0: it is not stable";
@@ -86,7 +87,8 @@ std::optional<std::string> why_controller_invalid(const GeneralController& c) {
 
 /// Degree of N_y P less that of D: 0 is a loop that answers at once.
 int loop_excess(const GeneralLoop& loop) {
-  return degree(loop.controller.on_output) - degree(loop.controller.denominator) - relative_degree(loop.plant.rational);
+  return degree(loop.controller.on_output) - degree(loop.controller.denominator) -
+         relative_degree(loop.plant.rational);
 }
 
 /// F(s) of the normalised families.
@@ -112,9 +114,11 @@ std::optional<std::string> why_invalid(const GeneralLoop& loop) {
   if (auto reason = why_controller_invalid(loop.controller)) return reason;
   const bool derivative = degree(loop.controller.on_output) > degree(loop.controller.denominator);
   if (derivative && relative_degree(loop.plant.rational) < 1)
-    return "the ideal derivative of an output that follows the input at once is an impulse; give the controller a filter";
+    return "the ideal derivative of an output that follows the input at once is an impulse; give the controller a "
+           "filter";
   if (loop.plant.dead_time == 0 && loop_excess(loop) >= 0)
-    return "an algebraic loop: without dead time plant and controller both answer at once; give one of them a lag, or the "
+    return "an algebraic loop: without dead time plant and controller both answer at once; give one of them a lag, "
+           "or the "
            "plant a dead time";
   const GeneralController& c = loop.controller;
   const TransferFunction& P = loop.plant.rational;
@@ -182,8 +186,7 @@ GeneralLoop in_time_unit(const GeneralLoop& loop, double unit) {
   found.plant = {in_time_unit(loop.plant.rational, unit), loop.plant.dead_time / unit};
   found.controller.on_setpoint = in_time_unit(c.on_setpoint, unit);
   found.controller.on_output = in_time_unit(c.on_output, unit);
-  for (const Polynomial& factor : c.denominator)
-    found.controller.denominator.push_back(in_time_unit(factor, unit));
+  for (const Polynomial& factor : c.denominator) found.controller.denominator.push_back(in_time_unit(factor, unit));
   found.controller.prefilter = in_time_unit(c.prefilter, unit);
   return found;
 }

@@ -64,8 +64,9 @@ class NoiseIntegral {
     if (loop.family.plant == Plant::fotd) plant_.lags = {setting.tau_1};
     controller_.integrators = has_integral_action(setting) ? 1 : 0;
     controller_.lags.assign(static_cast<std::size_t>(loop.family.n), setting.tau_f);
-    numerator_ = has_integral_action(setting) ? Polynomial{setting.kappa / setting.tau_i, setting.kappa, setting.delta}
-                                              : Polynomial{setting.kappa, setting.delta};
+    numerator_ = has_integral_action(setting)
+                     ? Polynomial{setting.kappa / setting.tau_i, setting.kappa, setting.delta}
+                     : Polynomial{setting.kappa, setting.delta};
     squared_ = numerator_squared(open_);
     left_terms_ = static_cast<int>(std::floor(Ts_));
     turn_at_ = turning_frequency();
@@ -188,7 +189,9 @@ class NoiseIntegral {
   }
 
   /// L without its dead time.
-  Complex rational(Complex s) const { return plant_.divide(controller_.divide(portrait::value(numerator_, s), s), s); }
+  Complex rational(Complex s) const {
+    return plant_.divide(controller_.divide(portrait::value(numerator_, s), s), s);
+  }
 
   OpenLoop open_;
   double Ts_;

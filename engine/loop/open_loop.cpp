@@ -65,8 +65,7 @@ double polished(const OpenLoop& loop, double omega) {
 OpenLoop open_loop(const Loop& loop) {
   const Setting& s = loop.setting;
   const bool integral = has_integral_action(s);
-  const Polynomial N =
-      integral ? Polynomial{s.kappa / s.tau_i, s.kappa, s.delta} : Polynomial{s.kappa, s.delta};
+  const Polynomial N = integral ? Polynomial{s.kappa / s.tau_i, s.kappa, s.delta} : Polynomial{s.kappa, s.delta};
   std::vector<Polynomial> D(static_cast<std::size_t>(integrators(loop.family.plant) + (integral ? 1 : 0)), {0, 1});
   if (loop.family.plant == Plant::fotd) D.push_back({1, s.tau_1});
   D.insert(D.end(), static_cast<std::size_t>(loop.family.n), Polynomial{1, s.tau_f});

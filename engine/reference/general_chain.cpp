@@ -18,7 +18,8 @@ struct Stage {
 
 class GeneralDiagram {
  public:
-  explicit GeneralDiagram(const GeneralLoop& loop) : loop_(loop), states_(count_states(loop)), width_(states_ + kDelayed + kSteps) {
+  explicit GeneralDiagram(const GeneralLoop& loop)
+      : loop_(loop), states_(count_states(loop)), width_(states_ + kDelayed + kSteps) {
     derivatives_ = Eigen::MatrixXd::Zero(states_, width_);
     outputs_ = Eigen::MatrixXd::Zero(kOutputs, width_);
     const Signal r = prefiltered();
@@ -74,8 +75,8 @@ class GeneralDiagram {
 
   /// N(s)/(D_1 ... D_m) of the input: N = Q D_m + R gives R over all factors, which stands on the slopes of the last
   /// stage, and Q over the factors before. What is left in the end multiplies the input itself and its slope.
-  Signal over(Polynomial N, const std::vector<Polynomial>& factors, const std::vector<Stage>& all, const Signal& input,
-              const Signal& input_slope) const {
+  Signal over(Polynomial N, const std::vector<Polynomial>& factors, const std::vector<Stage>& all,
+              const Signal& input, const Signal& input_slope) const {
     Signal sum = Signal::Zero(width_);
     for (std::size_t i = factors.size(); i-- > 0;) {
       const Division by = divided(N, factors[i]);

@@ -37,7 +37,8 @@ struct MeasuredInUnits {
   Units units;
 };
 /// A fixed `horizon` is in units of time of the loop. REQUIRES: the loop is valid, in any units.
-MeasuredInUnits measure_in_units(const GeneralLoop& loop, Horizon horizon, std::span<const Step> steps = kUsualSteps);
+MeasuredInUnits measure_in_units(const GeneralLoop& loop, Horizon horizon,
+                                 std::span<const Step> steps = kUsualSteps);
 
 /// The same from a response at hand. REQUIRES: `response` is that of a stable `loop`.
 Measured measure(const Loop& loop, const Response& response, std::optional<double> sampling = std::nullopt);

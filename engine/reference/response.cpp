@@ -197,8 +197,9 @@ Response by_steps(const Simulated& simulated, Horizon horizon, const Accuracy& a
     if (auto response = run_to(run, horizon)) return *std::move(response);
     partition = halved(partition, run.coarse());
   }
-  throw std::runtime_error(fmt::format(
-      "the reference simulation cannot resolve this loop with {} panels a dead time: {}", kMostPanels, simulated.name));
+  throw std::runtime_error(
+      fmt::format("the reference simulation cannot resolve this loop with {} panels a dead time: {}", kMostPanels,
+                  simulated.name));
 }
 
 const Piece& piece_at(const StepResponse& response, double t) {

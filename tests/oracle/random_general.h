@@ -45,12 +45,14 @@ inline GeneralController random_gains(Random& random) {
 }
 
 inline GeneralController random_controller(Random& random) {
-  GeneralController c = random.chance(0.4)   ? random_pid(random)
-                        : random.chance(0.5) ? random_gains(random)
-                                             : controller({scaled(random.log_uniform(0.1, 1), {1, random.log_uniform(0.1, 3)}),
-                                                           {{1, random.log_uniform(0.05, 1)}, {0, 1}}});
+  GeneralController c = random.chance(0.4) ? random_pid(random)
+                        : random.chance(0.5)
+                            ? random_gains(random)
+                            : controller({scaled(random.log_uniform(0.1, 1), {1, random.log_uniform(0.1, 3)}),
+                                          {{1, random.log_uniform(0.05, 1)}, {0, 1}}});
   if (random.chance(0.5))
-    c.prefilter = {{1, random.uniform(0, 1)}, {{1, random.log_uniform(0.1, 2)}, {1, 0.8, random.log_uniform(0.1, 2)}}};
+    c.prefilter = {{1, random.uniform(0, 1)},
+                   {{1, random.log_uniform(0.1, 2)}, {1, 0.8, random.log_uniform(0.1, 2)}}};
   return c;
 }
 
@@ -59,7 +61,8 @@ inline GeneralLoop random_general_loop(Random& random, double dead_time) {
   for (;;) {
     GeneralLoop loop{{random_plant(random), dead_time}, random_controller(random)};
     if (random.chance(0.3))
-      for (Polynomial* p : {&loop.plant.rational.numerator, &loop.controller.on_output, &loop.controller.on_setpoint})
+      for (Polynomial* p :
+           {&loop.plant.rational.numerator, &loop.controller.on_output, &loop.controller.on_setpoint})
         *p = scaled(-1, *p);
     if (!why_invalid(loop)) return loop;
   }

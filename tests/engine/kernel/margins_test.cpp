@@ -123,8 +123,8 @@ std::optional<OnTheLimit> loop_on_the_limit(oracle::Random& random, double omega
   if (!(s.kappa > 0 && s.tau_i > 0 && s.delta >= 0) || why_invalid(loop)) return std::nullopt;
   const OpenLoop open = open_loop(loop);
   if (high_frequency_gain(open) > 0.99) return std::nullopt;
-  const double n0 = has_integral_action(s) ? s.kappa / s.tau_i : s.kappa, n1 = has_integral_action(s) ? s.kappa : s.delta,
-               n2 = has_integral_action(s) ? s.delta : 0;
+  const double n0 = has_integral_action(s) ? s.kappa / s.tau_i : s.kappa,
+               n1 = has_integral_action(s) ? s.kappa : s.delta, n2 = has_integral_action(s) ? s.delta : 0;
   const std::complex<double> N = n0 + jw * (n1 + jw * n2), turn = std::exp(-jw);
   std::complex<double> slope = n1 + 2.0 * n2 * jw - N;  // (N' - N) e^{-s} + D', D'/D summed factor by factor
   std::complex<double> growth = static_cast<double>(open.integrators) / jw;

@@ -168,8 +168,7 @@ TEST(Panel, KeepsTheDigitsOfASlopeOnATinyPanel) {
   y.row(0).setConstant(q(0));
   y.bottomRows(14).colwise() = nodes.at.tail(14) * 2;  // (t / tau_f) on a panel of length 2 tau_f
   Crossed crossed{States::Constant(1, kColumns, large - tau_f), {}};
-  Panel(chain, nodes, 2 * tau_f)
-      .advance(y, PanelValues::Zero(15, kColumns), crossed.x, crossed.outputs);
+  Panel(chain, nodes, 2 * tau_f).advance(y, PanelValues::Zero(15, kColumns), crossed.x, crossed.outputs);
   for (int i = 1; i <= 14; ++i) EXPECT_NEAR(crossed.outputs[kZ](i, kSetpoint) / tau_f, 2 * nodes.at(i), 1e-10);
 }
 
