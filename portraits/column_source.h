@@ -7,11 +7,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "engine/base/status.h"
 #include "engine/measures/catalogue.h"
 #include "grids/grid.h"
+#include "portraits/tile_summary.h"
 
 namespace portrait {
 
@@ -25,6 +27,14 @@ class ColumnSource {
   virtual void read(Measure measure, std::uint64_t first, std::size_t count, std::vector<double>& values) const = 0;
   /// The same run of outcomes. REQUIRES: the run lies within the grid.
   virtual void read_statuses(std::uint64_t first, std::size_t count, std::vector<Status>& statuses) const = 0;
+
+  /// What is known of every tile of TileRows(grid()) without reading it; empty: nothing is, so all must be read.
+  /// REQUIRES: the measure is one of grid().measures.
+  virtual std::vector<TileRange> tile_ranges(Measure) const { return {}; }
+  virtual std::vector<StatusCounts> tile_status_counts() const { return {}; }
+
+  /// The same columns for another thread to read, at the same time as this one.
+  virtual std::unique_ptr<ColumnSource> for_another_thread() const = 0;
 };
 
 }  // namespace portrait

@@ -29,20 +29,24 @@ EncodedColumn encode_as(const std::vector<double>& values, std::size_t chunk_val
     value = value != value ? nan : value;  // NOLINT(misc-redundant-expression): std::isnan stays out of vector code
     std::memcpy(into + i * sizeof(Real), &value, sizeof(Real));
   }
-  return {std::move(bytes), std::as_bytes(std::span(&nan, 1)), chunk_values};
+  std::vector<double> summary = range_summary(bytes, sizeof(Real));
+  return {std::move(bytes), std::move(summary), std::as_bytes(std::span(&nan, 1)), chunk_values};
 }
 
 EncodedColumn encode_status(const std::vector<Status>& status, std::size_t chunk_values) {
   const auto bytes = std::as_bytes(std::span(status));
   constexpr std::byte fill{0};
-  return {{bytes.begin(), bytes.end()}, std::span(&fill, 1), chunk_values};
+  return {{bytes.begin(), bytes.end()}, status_summary(bytes), std::span(&fill, 1), chunk_values};
 }
 
 }  // namespace
 
-EncodedColumn::EncodedColumn(std::vector<std::byte> values, std::span<const std::byte> fill,
-                             std::size_t chunk_values)
-    : plain_(std::move(values)), value_bytes_(plain_.size()), digest_(digest_of(plain_)) {
+EncodedColumn::EncodedColumn(std::vector<std::byte> values, std::vector<double> summary,
+                             std::span<const std::byte> fill, std::size_t chunk_values)
+    : plain_(std::move(values)),
+      value_bytes_(plain_.size()),
+      digest_(digest_of(plain_)),
+      summary_(std::move(summary)) {
   const std::size_t chunk_bytes = chunk_values * fill.size();
   PORTRAIT_CHECK(value_bytes_ <= chunk_bytes);
   while (plain_.size() < chunk_bytes) plain_.insert(plain_.end(), fill.begin(), fill.end());

@@ -15,6 +15,7 @@
 #include "grids/grid.h"
 #include "portraits/chunk_codec.h"
 #include "portraits/tile_rows.h"
+#include "portraits/tile_summary.h"
 
 namespace portrait {
 
@@ -22,19 +23,22 @@ namespace portrait {
 class EncodedColumn {
  public:
   /// `values` are those of the tile as they are stored; a tile at the far edge is padded with `fill` to a whole
-  /// chunk.
+  /// chunk. `summary` is what tile_summary.h makes of the values.
   /// REQUIRES: fill.size() is the size of a value, and chunk_values at least the number of values.
-  EncodedColumn(std::vector<std::byte> values, std::span<const std::byte> fill, std::size_t chunk_values);
+  EncodedColumn(std::vector<std::byte> values, std::vector<double> summary, std::span<const std::byte> fill,
+                std::size_t chunk_values);
 
   std::span<const std::byte> values() const { return std::span(plain_).first(value_bytes_); }
   ChunkForm form() const { return deflated_.empty() ? ChunkForm::plain : ChunkForm::deflated; }
   std::span<const std::byte> stored() const { return deflated_.empty() ? plain_ : deflated_; }
   std::uint64_t digest() const { return digest_; }  ///< of the values
+  const std::vector<double>& summary() const { return summary_; }
 
  private:
   std::vector<std::byte> plain_;  ///< the values, padded and checksummed
   std::size_t value_bytes_;
   std::uint64_t digest_;
+  std::vector<double> summary_;
   std::vector<std::byte> deflated_;  ///< the same deflated; empty: it is stored plain
 };
 

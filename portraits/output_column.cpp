@@ -1,6 +1,7 @@
 #include "portraits/output_column.h"
 
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -25,6 +26,18 @@ h5::Dataset create_column(const h5::File& file, const Grid& grid, const std::str
   const h5::Dataset dataset = file.create_dataset(name, schema::column_layout(TileRows(grid), element));
   attach_axes(file, dataset, grid);
   return dataset;
+}
+
+/// A dimension without values of its own: 0, 1, 2, ...
+h5::Dataset create_scale(const h5::File& file, const std::string& name, const char* dimension, std::uint64_t size,
+                         const char* long_name) {
+  std::vector<std::uint64_t> numbers(size);
+  std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
+  const h5::Dataset scale = file.create_dataset(name, schema::tile_digest_layout(size));
+  write_plain(scale, numbers);
+  scale.make_scale(dimension);
+  scale.set_text("long_name", long_name);
+  return scale;
 }
 
 }  // namespace
@@ -61,15 +74,42 @@ void OutputColumn::write(const std::vector<std::uint64_t>& start, const EncodedC
     dataset_.write_chunk(start, column.form(), column.stored());
   whole_.add(column.values());
   digests_.push_back(column.digest());
+  summaries_.insert(summaries_.end(), column.summary().begin(), column.summary().end());
 }
 
-void OutputColumn::finish(const h5::File& file, const h5::Dataset& tile_scale) const {
+OutputColumn::TileScales OutputColumn::create_tile_scales(const h5::File& file, std::uint64_t tiles) {
+  file.create_group(schema::kTileDigests);
+  file.create_group(schema::kTileSummaries);
+  const char* const tile = "number of the tile, a chunk of each column, in row-major order";
+  return {create_scale(file, schema::tile_digests_of(schema::kTile), schema::kTile, tiles, tile),
+          create_scale(file, schema::tile_summaries_of(schema::kTile), schema::kTile, tiles, tile),
+          create_scale(file, schema::tile_summaries_of(schema::kRange), schema::kRange, kRangeNumbers,
+                       "0: least value, 1: greatest value, 2: number of NaN"),
+          create_scale(file, schema::tile_summaries_of(schema::kOutcome), schema::kOutcome, kStatusNames.size(),
+                       "value of status")};
+}
+
+void OutputColumn::finish(const h5::File& file, const TileScales& scales) const {
   dataset_.set_text(schema::kDigest, digest_text(whole_.value()));
-  const h5::Dataset stored =
+  const h5::Dataset digests =
       file.create_dataset(schema::tile_digests_of(dataset_.name()), schema::tile_digest_layout(digests_.size()));
-  write_plain(stored, digests_);
-  stored.attach_scale(0, tile_scale, schema::kTile);
-  stored.set_text("long_name", fmt::format("XXH3 of each tile of {}", dataset_.name()));
+  write_plain(digests, digests_);
+  digests.attach_scale(0, scales.digests, schema::kTile);
+  digests.set_text("long_name", fmt::format("XXH3 of each tile of {}", dataset_.name()));
+  finish_summaries(file, scales);
+}
+
+void OutputColumn::finish_summaries(const h5::File& file, const TileScales& scales) const {
+  const bool is_status = dataset_.name() == schema::kStatus;
+  const std::uint64_t tiles = digests_.size();
+  const h5::Dataset summaries = file.create_dataset(schema::tile_summaries_of(dataset_.name()),
+                                                    schema::tile_summary_layout(tiles, summaries_.size() / tiles));
+  write_plain(summaries, summaries_);
+  summaries.attach_scale(0, scales.tile, schema::kTile);
+  summaries.attach_scale(1, is_status ? scales.outcome : scales.range,
+                         is_status ? schema::kOutcome : schema::kRange);
+  summaries.set_text("long_name", is_status ? "settings of each tile with each status"
+                                            : fmt::format("range of {} in each tile", dataset_.name()));
 }
 
 }  // namespace portrait

@@ -26,7 +26,9 @@ std::vector<Value> read_plain(const h5::File& file, const std::string& name, h5:
     throw IntegrityError(fmt::format("{}: {} {}", file.origin().file, name, what));
   };
   if (layout.element != element || layout.extent.size() != axes || !layout.chunk.empty())
-    broken(axes == 0 ? "is not a single number" : "is not a row of numbers");
+    broken(axes == 0   ? "is not a single number"
+           : axes == 1 ? "is not a row of numbers"
+                       : "is not a table of numbers");
   if (layout.count() > file.origin().bytes / sizeof(Value)) broken("is larger than the file");
   std::vector<Value> values(layout.count());
   dataset.read_all(values.data());

@@ -10,7 +10,7 @@
 
 namespace portrait {
 
-/// `axes` is 0 for a single number and 1 for a row. Throws IntegrityError when the dataset is missing, of
+/// `axes` is 0 for a single number, 1 for a row, 2 for a table, which comes row by row. Throws IntegrityError when the dataset is missing, of
 /// another type or shape, larger than the file, or not what was written.
 std::vector<double> read_reals(const h5::File& file, const std::string& name, std::size_t axes);
 std::vector<std::uint64_t> read_row_of_uint64(const h5::File& file, const std::string& name);

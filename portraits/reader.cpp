@@ -53,6 +53,25 @@ class PortraitReader::File {
     return *column;
   }
 
+  std::vector<TileRange> ranges(Measure measure) const {
+    const std::vector<double> numbers =
+        StoredColumn::summaries(file_, std::string(to_string(measure)), kRangeNumbers, rows_);
+    std::vector<TileRange> ranges;
+    ranges.reserve(numbers.size() / kRangeNumbers);
+    for (std::size_t at = 0; at < numbers.size(); at += kRangeNumbers)
+      ranges.push_back({numbers[at], numbers[at + 1], static_cast<std::uint64_t>(numbers[at + 2])});
+    return ranges;
+  }
+
+  std::vector<StatusCounts> status_counts() const {
+    constexpr std::size_t kOutcomes = StatusCounts{}.size();
+    const std::vector<double> numbers = StoredColumn::summaries(file_, schema::kStatus, kOutcomes, rows_);
+    std::vector<StatusCounts> counts(numbers.size() / kOutcomes);
+    for (std::size_t at = 0; at < numbers.size(); ++at)
+      counts[at / kOutcomes][at % kOutcomes] = static_cast<std::uint64_t>(numbers[at]);
+    return counts;
+  }
+
   StoredColumn& status() {
     if (!status_) status_.emplace(file_, schema::kStatus, h5::Element::uint8, rows_);
     return *status_;
@@ -69,6 +88,7 @@ class PortraitReader::File {
 };
 
 PortraitReader::PortraitReader(const std::filesystem::path& path) : file_(std::make_unique<File>(path)) {}
+PortraitReader::PortraitReader(std::unique_ptr<File> file) : file_(std::move(file)) {}
 PortraitReader::~PortraitReader() = default;
 PortraitReader::PortraitReader(PortraitReader&&) noexcept = default;
 PortraitReader& PortraitReader::operator=(PortraitReader&&) noexcept = default;
@@ -91,6 +111,17 @@ void PortraitReader::read(Measure measure, std::uint64_t first, std::size_t coun
   file_->measure(measure).for_each_piece({first, count}, [&](std::span<const std::byte> bytes, std::uint64_t at) {
     widen_stored(bytes, values.data() + (at - first));
   });
+}
+
+std::vector<TileRange> PortraitReader::tile_ranges(Measure measure) const {
+  PORTRAIT_CHECK(has(measure));
+  return file_->ranges(measure);
+}
+
+std::vector<StatusCounts> PortraitReader::tile_status_counts() const { return file_->status_counts(); }
+
+std::unique_ptr<ColumnSource> PortraitReader::for_another_thread() const {
+  return std::unique_ptr<ColumnSource>(new PortraitReader(std::make_unique<File>(*file_)));
 }
 
 void PortraitReader::read_statuses(std::uint64_t first, std::size_t count, std::vector<Status>& statuses) const {

@@ -8,7 +8,7 @@
 /// is not
 ///           what was written. StoreError: the disk. Each names the file, and the dataset or attribute
 /// cost      opening reads attributes and axes; reading decodes each tile once, and holds one tile per column
-/// REQUIRES: one thread at a time.
+/// REQUIRES: one thread at a time; `for_another_thread` gives another one its own.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +43,13 @@ class PortraitReader final : public ColumnSource {
   /// The same of outcomes.
   void read_statuses(std::uint64_t first, std::size_t count, std::vector<Status>& statuses) const override;
 
+  std::vector<TileRange> tile_ranges(Measure measure) const override;
+  std::vector<StatusCounts> tile_status_counts() const override;
+  std::unique_ptr<ColumnSource> for_another_thread() const override;
+
  private:
   class File;
+  explicit PortraitReader(std::unique_ptr<File> file);
   std::unique_ptr<File> file_;
 };
 

@@ -10,11 +10,17 @@ namespace portrait::schema {
 
 std::string tile_digests_of(std::string_view column) { return fmt::format("{}/{}", kTileDigests, column); }
 
+std::string tile_summaries_of(std::string_view column) { return fmt::format("{}/{}", kTileSummaries, column); }
+
 h5::Layout axis_layout(std::uint64_t size) { return {h5::Element::real64, {size}, {}}; }
 
 h5::Layout fixed_layout() { return {h5::Element::real64, {}, {}}; }
 
 h5::Layout tile_digest_layout(std::uint64_t tiles) { return {h5::Element::uint64, {tiles}, {}}; }
+
+h5::Layout tile_summary_layout(std::uint64_t tiles, std::uint64_t numbers) {
+  return {h5::Element::real64, {tiles, numbers}, {}};
+}
 
 h5::Layout column_layout(const TileRows& rows, h5::Element element) {
   return {element, rows.extent(), rows.tile_extent()};

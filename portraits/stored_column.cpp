@@ -31,8 +31,18 @@ std::vector<std::uint64_t> read_digests(const h5::File& file, const h5::Dataset&
 StoredColumn::StoredColumn(const h5::File& file, const std::string& name, h5::Element element, const TileRows& rows)
     : dataset_(open_as(file, name, schema::column_layout(rows, element))),
       rows_(rows),
-      digests_(read_digests(file, dataset_, rows)),
+      digests_(std::make_shared<const std::vector<std::uint64_t>>(read_digests(file, dataset_, rows))),
       held_(rows.tile_count()) {}
+
+std::vector<double> StoredColumn::summaries(const h5::File& file, const std::string& name, std::size_t numbers,
+                                            const TileRows& rows) {
+  const std::string dataset = schema::tile_summaries_of(name);
+  if (!file.contains(schema::kTileSummaries)) return {};
+  std::vector<double> all = read_reals(file, dataset, 2);
+  if (all.size() != rows.tile_count() * numbers)
+    throw IntegrityError(fmt::format("{}: {} has not {} numbers per tile", file.origin().file, dataset, numbers));
+  return all;
+}
 
 void StoredColumn::decode(std::uint64_t number) {
   const ChunkForm form = dataset_.read_chunk(rows_.box(number).start, next_);
@@ -59,7 +69,7 @@ std::span<const std::byte> StoredColumn::tile(std::uint64_t number) {
   held_ = rows_.tile_count();
   read(number);
   const auto values = std::span(values_).first(size);
-  if (digest_of(values) != digests_[number])
+  if (digest_of(values) != (*digests_)[number])
     broken(dataset_, fmt::format("holds other values than were written (the digest of tile {} differs)", number));
   held_ = number;
   return values;

@@ -5,10 +5,12 @@
 /// values, to HDF5's index of chunks (which has no checksum of its own), or to the digest.
 ///
 /// cost      one tile and one digest per tile of memory; reading row-major decodes each tile once
+/// threads   one at a time; a copy is for another one, and shares the digests
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +32,10 @@ class StoredColumn {
   template <typename Use>
   void for_each_piece(SettingRange wanted, Use use);
 
+  /// What tile_summary.h keeps of each tile, one after the other; empty in a file of format 1.1 or before.
+  static std::vector<double> summaries(const h5::File& file, const std::string& name, std::size_t numbers,
+                                       const TileRows& rows);
+
   const h5::Dataset& dataset() const { return dataset_; }
 
  private:
@@ -38,7 +44,7 @@ class StoredColumn {
 
   h5::Dataset dataset_;
   TileRows rows_;
-  std::vector<std::uint64_t> digests_;
+  std::shared_ptr<const std::vector<std::uint64_t>> digests_;
   std::vector<std::byte> values_;      ///< of a whole chunk
   std::vector<std::byte> stored_;      ///< the chunk they were decoded from
   std::vector<std::byte> next_;        ///< the chunk read last

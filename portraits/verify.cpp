@@ -17,13 +17,32 @@
 #include "portraits/schema.h"
 #include "portraits/stored_column.h"
 #include "portraits/stored_grid.h"
+#include "portraits/tile_summary.h"
 
 namespace portrait {
 namespace {
 
-void check_values(StoredColumn& column, const TileRows& rows, const std::string& digest) {
+/// A query trusts a summary in place of the values, so the two must agree.
+void check_summary(const h5::Dataset& dataset, std::span<const std::byte> values, std::span<const double> kept,
+                   std::uint64_t tile) {
+  const std::vector<double> found = dataset.name() == schema::kStatus
+                                        ? status_summary(values)
+                                        : range_summary(values, h5::size_of(dataset.layout().element));
+  if (!std::equal(found.begin(), found.end(), kept.begin(), kept.end()))
+    throw IntegrityError(fmt::format("{}: {} does not fit the values of tile {}", dataset.origin().file,
+                                     schema::tile_summaries_of(dataset.name()), tile));
+}
+
+void check_values(StoredColumn& column, const TileRows& rows, const std::string& digest,
+                  const std::vector<double>& summaries) {
   Digest whole;
-  for (std::uint64_t tile = 0; tile < rows.tile_count(); ++tile) whole.add(column.tile(tile));
+  const std::size_t numbers = summaries.size() / rows.tile_count();
+  for (std::uint64_t tile = 0; tile < rows.tile_count(); ++tile) {
+    const auto values = column.tile(tile);
+    whole.add(values);
+    if (numbers > 0)
+      check_summary(column.dataset(), values, std::span(summaries).subspan(tile * numbers, numbers), tile);
+  }
   const h5::Dataset& dataset = column.dataset();
   if (digest_text(whole.value()) != digest)
     throw IntegrityError(fmt::format("{}: {} holds other values than were written (its digest differs)",
@@ -39,11 +58,14 @@ class ColumnCheck {
     noting_problems([&] {
       column_.emplace(file, name, element, rows);
       result_.digest = column_->dataset().text(schema::kDigest);
+      const std::size_t numbers = element == h5::Element::uint8 ? StatusCounts{}.size() : kRangeNumbers;
+      summaries_ = StoredColumn::summaries(file, name, numbers, rows);
     });
   }
 
   void run() {
-    if (result_.problem.empty()) noting_problems([&] { check_values(*column_, *rows_, result_.digest); });
+    if (result_.problem.empty())
+      noting_problems([&] { check_values(*column_, *rows_, result_.digest, summaries_); });
   }
   const CheckedDataset& result() const { return result_; }
 
@@ -59,6 +81,7 @@ class ColumnCheck {
 
   const TileRows* rows_;
   std::optional<StoredColumn> column_;
+  std::vector<double> summaries_;
   CheckedDataset result_;
 };
 

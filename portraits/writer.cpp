@@ -78,9 +78,9 @@ class PortraitWriter::File {
 
   void finish(const RunFacts& facts) {
     PORTRAIT_CHECK_EQ(tiles_left(), std::uint64_t{0});
-    const h5::Dataset scale = create_tile_scale();
-    for (const OutputColumn& column : measures_) column.finish(file_, scale);
-    status_.front().finish(file_, scale);
+    const OutputColumn::TileScales scales = OutputColumn::create_tile_scales(file_, written_);
+    for (const OutputColumn& column : measures_) column.finish(file_, scales);
+    status_.front().finish(file_, scales);
     write_run_facts(file_, facts);
     file_.close();
     closed_ = true;
@@ -93,18 +93,6 @@ class PortraitWriter::File {
     } catch (const StoreError&) {
       // The file is removed next; why it would not close is of no use to anyone.
     }
-  }
-
-  h5::Dataset create_tile_scale() const {
-    file_.create_group(schema::kTileDigests);
-    std::vector<std::uint64_t> numbers(written_);
-    for (std::uint64_t tile = 0; tile < numbers.size(); ++tile) numbers[tile] = tile;
-    const h5::Dataset scale =
-        file_.create_dataset(schema::tile_digests_of(schema::kTile), schema::tile_digest_layout(numbers.size()));
-    write_plain(scale, numbers);
-    scale.make_scale(schema::kTile);
-    scale.set_text("long_name", "number of the tile, a chunk of each column, in row-major order");
-    return scale;
   }
 
   Grid grid_;

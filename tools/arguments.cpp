@@ -100,4 +100,17 @@ RealPlant real_plant_argument(std::string_view option, std::string_view text, Pl
   return plant;
 }
 
+StepSizes step_argument(std::string_view option, std::string_view text) {
+  StepSizes steps;
+  for (const auto& [name, value] : assignments(option, text)) {
+    if (name != "w" && name != "d")
+      fail(option, fmt::format("unknown step \"{}\": w is the setpoint, d the input disturbance", name));
+    const double size = number_argument(option, value);
+    if (!std::isfinite(size) || size <= 0)
+      fail(option, fmt::format("{} must be finite and above 0 (it is {})", name, value));
+    (name == "w" ? steps.w : steps.d) = size;
+  }
+  return steps;
+}
+
 }  // namespace portrait::tools

@@ -10,6 +10,7 @@
 #include "engine/loop/horizon.h"
 #include "engine/loop/real_plant.h"
 #include "engine/sweep/method.h"
+#include "portraits/query/units.h"
 
 namespace portrait::tools {
 
@@ -28,5 +29,8 @@ Method method_argument(std::string_view option, std::string_view text);
 
 /// "K=2.5,Td=0.4[,T1=3]" for a plant of this family; K is 1 when it is not given.
 RealPlant real_plant_argument(std::string_view option, std::string_view text, Plant family);
+
+/// "w=2,d=0.5": sizes of steps, 1 where none is given.
+StepSizes step_argument(std::string_view option, std::string_view text);
 
 }  // namespace portrait::tools

@@ -119,11 +119,10 @@ LoopFamily family_argument(const PlotArguments& a, Plant plant) {
 
 Question question_argument(const PlotArguments& a, const Grid& grid) {
   Question question{.minimize = parse_expression({"--minimize", a.minimize}),
-                    .where = {},
-                    .top = 1,
-                    .plant = plant_argument(a.plant, grid.family.plant).real,
-                    .include_not_settled = a.include_not_settled};
-  for (const std::string& text : a.where) question.where.push_back(parse_constraint({"--where", text}));
+                    .conditions = {.where = {},
+                                   .units = {.plant = plant_argument(a.plant, grid.family.plant).real, .steps = {}},
+                                   .include_not_settled = a.include_not_settled}};
+  for (const std::string& text : a.where) question.conditions.where.push_back(parse_constraint({"--where", text}));
   return question;
 }
 

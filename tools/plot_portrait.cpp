@@ -9,7 +9,7 @@
 #include "engine/base/words.h"
 #include "portraits/query/cross_section.h"
 #include "portraits/query/grid_values.h"
-#include "portraits/query/real_units.h"
+#include "portraits/query/units.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
 #include "tools/pictures/front.h"
@@ -49,16 +49,13 @@ struct MapArguments : PlotArguments {
 struct Shown {
   explicit Shown(const PlotArguments& a)
       : portrait(a.file), plant(plant_argument(a.plant, portrait.grid().family.plant).real) {
-    if (!plant) return;
-    require_fits(*plant, portrait.grid());
-    real.emplace(portrait, *plant);
+    require_fits(units(), portrait.grid());
   }
   const Grid& grid() const { return portrait.grid(); }
-  const ColumnSource& source() const { return real ? static_cast<const ColumnSource&>(*real) : portrait; }
+  Units units() const { return {plant, {}}; }
 
   PortraitReader portrait;
   std::optional<RealPlant> plant;
-  std::optional<RealUnits> real;
 };
 
 std::optional<Found> optimum(const PlotArguments& a, const Shown& shown) {
@@ -106,10 +103,9 @@ std::vector<std::uint64_t> held_indices(const MapArguments& a, const Shown& show
     held = coordinates(grid, best->number);
   else
     for (const Axis& axis : grid.axes) held.push_back(axis.size() / 2);
-  if (shown.plant)
-    if (const auto tau_1 = slice_of(*shown.plant, grid))
-      held[axis_index(grid, Parameter::tau_1)] =
-          *index_of_value(grid.axes[axis_index(grid, Parameter::tau_1)].values(), *tau_1);
+  if (const auto tau_1 = slice_of(shown.units(), grid))
+    held[axis_index(grid, Parameter::tau_1)] =
+        *index_of_value(grid.axes[axis_index(grid, Parameter::tau_1)].values(), *tau_1);
   for (const std::string& text : a.at) hold(grid, text, held);
   return held;
 }
@@ -135,14 +131,14 @@ pictures::Field field_of(const CrossSection& section, const std::vector<double>&
 }
 
 bool only_inequalities(const Question& question) {
-  return std::none_of(question.where.begin(), question.where.end(),
+  return std::none_of(question.conditions.where.begin(), question.conditions.where.end(),
                       [](const Constraint& constraint) { return constraint.relation == Relation::equal; });
 }
 
 constexpr std::size_t kMostSettingsDrawn = 1500;
 
 void add_admissible(pictures::Map& map, const CrossSection& section, const Question& question) {
-  if (question.where.empty()) return;
+  if (question.conditions.where.empty()) return;
   if (only_inequalities(question)) {
     pictures::Field violation = field_of(section, section.violation(question));
     violation.log_x = map.field.log_x;
@@ -191,9 +187,9 @@ int map(const MapArguments& a, const Invocation& invocation) {
   if (!a.where.empty() && a.minimize.empty()) throw InputError("--where needs --minimize");
   const auto best = optimum(a, shown);
   const auto held = held_indices(a, shown, best);
-  const CrossSection section(shown.source(), x, y, held);
+  const CrossSection section(shown.portrait, shown.units(), x, y, held);
   const Expression colour = parse_expression({"--colour", a.colour.empty() ? a.minimize : a.colour});
-  require_available(colour, grid);
+  require_available(colour, grid, shown.plant.has_value());
 
   pictures::Map picture;
   picture.field = field_of(section, section.values(colour));

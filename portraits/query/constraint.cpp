@@ -71,9 +71,9 @@ Constraint parse_constraint(const QueryText& text) {
   return {text, std::move(left), relation, std::move(right)};
 }
 
-void require_available(const Constraint& constraint, const Grid& grid) {
-  require_available(constraint.left, grid);
-  require_available(constraint.right, grid);
+void require_available(const Constraint& constraint, const Grid& grid, bool has_plant) {
+  require_available(constraint.left, grid, has_plant);
+  require_available(constraint.right, grid, has_plant);
   if (constraint.relation != Relation::equal) return;
   require_value_in_grid(constraint.left, constraint.right, grid);
   require_value_in_grid(constraint.right, constraint.left, grid);
@@ -93,6 +93,32 @@ bool holds(Relation relation, double left, double right) {
       return same_number(left, right);
   }
   return false;
+}
+
+Outlook outlook(Relation relation, const Interval& left, const Interval& right) {
+  if (!left.has_numbers() || !right.has_numbers()) return Outlook::never;
+  const bool sure = !left.may_be_nan && !right.may_be_nan;
+  const auto decide = [&](bool always, bool never) {
+    return never ? Outlook::never : always && sure ? Outlook::always : Outlook::maybe;
+  };
+  switch (relation) {
+    case Relation::at_most:
+      return decide(left.high <= right.low, left.low > right.high);
+    case Relation::below:
+      return decide(left.high < right.low, left.low >= right.high);
+    case Relation::at_least:
+      return decide(left.low >= right.high, left.high < right.low);
+    case Relation::above:
+      return decide(left.low > right.high, left.high <= right.low);
+    case Relation::equal:
+      break;
+  }
+  // Apart by more than any two numbers of these sizes that are the same.
+  const double gap = std::max(left.low - right.high, right.low - left.high);
+  const double size =
+      std::max({std::abs(left.low), std::abs(left.high), std::abs(right.low), std::abs(right.high)});
+  const bool points = left.low == left.high && right.low == right.high;
+  return decide(points && same_number(left.low, right.low), gap > 2 * kSameWithin * size);
 }
 
 double distance(double left, double right) {

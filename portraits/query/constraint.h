@@ -34,10 +34,14 @@ struct Constraint {
 /// Throws InputError with place and caret.
 Constraint parse_constraint(const QueryText& text);
 
-/// Throws InputError when a side names something that the portrait does not have, or when the constraint is
-/// "parameter == number" and the grid has no such value: nothing could ever hold, and the nearest values are
-/// named.
-void require_available(const Constraint& constraint, const Grid& grid);
+/// Throws InputError when a side names something that the question cannot have (see expression.h), or when the
+/// constraint is "parameter == number" and the grid has no such value: nothing could ever hold, and the nearest
+/// values are named.
+void require_available(const Constraint& constraint, const Grid& grid, bool has_plant);
+
+/// Whether a constraint holds over a tile, from the bounds of its sides.
+enum class Outlook : std::uint8_t { always, maybe, never };
+Outlook outlook(Relation relation, const Interval& left, const Interval& right);
 
 bool holds(Relation relation, double left, double right);
 

@@ -57,8 +57,9 @@ std::size_t axis_index(const Grid& grid, Parameter parameter) {
   return static_cast<std::size_t>(found - grid.axes.begin());
 }
 
-CrossSection::CrossSection(const ColumnSource& source, Parameter x, Parameter y, std::vector<std::uint64_t> held)
-    : source_(source), parameters_(source.grid()) {
+CrossSection::CrossSection(const ColumnSource& source, const Units& units, Parameter x, Parameter y,
+                           std::vector<std::uint64_t> held)
+    : source_(source), units_(units), parameters_(source.grid()) {
   const Grid& grid = source.grid();
   const std::size_t kx = axis_index(grid, x), ky = axis_index(grid, y);
   PORTRAIT_CHECK(kx != ky);
@@ -82,16 +83,34 @@ CrossSection::CrossSection(const ColumnSource& source, Parameter x, Parameter y,
   });
 }
 
-void CrossSection::gather(Quantity quantity, std::vector<double>& values) const {
-  values.resize(numbers_.size());
+void CrossSection::gather(Measure measure, std::vector<double>& values) const {
+  std::vector<double> run;
+  const double unit = factor(measure, units_);
+  for_each_run(numbers_, ascending_, [&](std::size_t at, std::uint64_t first, std::size_t count) {
+    source_.read(measure, first, count, run);
+    for (std::size_t k = 0; k < count; ++k) values[ascending_[at + k]] = run[k] * unit;
+  });
+}
+
+void CrossSection::gather(Parameter parameter, std::vector<double>& values) const {
   std::vector<double> run;
   for_each_run(numbers_, ascending_, [&](std::size_t at, std::uint64_t first, std::size_t count) {
-    if (const Measure* measure = std::get_if<Measure>(&quantity))
-      source_.read(*measure, first, count, run);
-    else
-      parameters_.read(std::get<Parameter>(quantity), first, count, run);
+    parameters_.read(parameter, first, count, run);
     for (std::size_t k = 0; k < count; ++k) values[ascending_[at + k]] = run[k];
   });
+}
+
+void CrossSection::gather(ControllerValue value, std::vector<double>& values) const {
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const Setting setting = setting_at(source_.grid(), numbers_[i]);
+    values[i] = controller_value<double>(value, *units_.plant,
+                                         [&](Parameter parameter) { return get(setting, parameter); });
+  }
+}
+
+void CrossSection::gather(Quantity quantity, std::vector<double>& values) const {
+  values.resize(numbers_.size());
+  std::visit([&](auto one) { gather(one, values); }, quantity);
 }
 
 std::vector<double> CrossSection::values(const Expression& expression) const {
@@ -110,7 +129,7 @@ std::vector<bool> CrossSection::eligible(const Question& question) const {
   std::vector<bool> result(numbers_.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const bool status =
-        statuses_[i] == Status::settled || (question.include_not_settled && statuses_[i] == Status::not_settled);
+        statuses_[i] == Status::settled || (question.conditions.include_not_settled && statuses_[i] == Status::not_settled);
     result[i] = status && !std::isnan(objective[i]);
   }
   return result;
@@ -118,7 +137,7 @@ std::vector<bool> CrossSection::eligible(const Question& question) const {
 
 std::vector<bool> CrossSection::admissible(const Question& question) const {
   std::vector<bool> result = eligible(question);
-  for (const Constraint& constraint : question.where) {
+  for (const Constraint& constraint : question.conditions.where) {
     const std::vector<double> left = values(constraint.left), right = values(constraint.right);
     for (std::size_t i = 0; i < result.size(); ++i)
       if (!holds(constraint.relation, left[i], right[i])) result[i] = false;
@@ -129,7 +148,7 @@ std::vector<bool> CrossSection::admissible(const Question& question) const {
 std::vector<double> CrossSection::violation(const Question& question) const {
   const std::vector<bool> allowed = eligible(question);
   std::vector<double> worst(numbers_.size(), -kInf);
-  for (const Constraint& constraint : question.where) {
+  for (const Constraint& constraint : question.conditions.where) {
     const std::vector<double> left = values(constraint.left), right = values(constraint.right);
     for (std::size_t i = 0; i < worst.size(); ++i) {
       const double by = excess(constraint.relation, left[i], right[i]);

@@ -1,7 +1,7 @@
 /// A plane of a portrait: two axes run, all others are held. What pictures and pages show of it.
 ///
 /// shape     values[j * nx + i] belongs to the i-th value of x and the j-th of y
-/// unit      that of the source: normalised, or real through RealUnits
+/// unit      that of the question, as in units.h
 /// cost      the settings of the plane in the order of their numbers, a run along the last axis at a time
 #pragma once
 
@@ -21,7 +21,8 @@ class CrossSection {
  public:
   /// `held`: an index for every axis of the grid; those of x and y do not matter.
   /// REQUIRES: x and y are two different axes; the source outlives this.
-  CrossSection(const ColumnSource& source, Parameter x, Parameter y, std::vector<std::uint64_t> held);
+  CrossSection(const ColumnSource& source, const Units& units, Parameter x, Parameter y,
+               std::vector<std::uint64_t> held);
 
   std::size_t nx() const { return x_values_.size(); }
   std::size_t ny() const { return y_values_.size(); }
@@ -30,7 +31,7 @@ class CrossSection {
   const std::vector<Status>& statuses() const { return statuses_; }
   const std::vector<std::uint64_t>& numbers() const { return numbers_; }
 
-  /// REQUIRES: require_available(expression, grid).
+  /// REQUIRES: require_available(expression, grid, has a plant).
   std::vector<double> values(const Expression& expression) const;
 
   /// Whether each setting is admissible for the question, as `ask` counts it; the plant's slice is the caller's.
@@ -43,9 +44,13 @@ class CrossSection {
 
  private:
   void gather(Quantity quantity, std::vector<double>& values) const;
+  void gather(Measure measure, std::vector<double>& values) const;
+  void gather(Parameter parameter, std::vector<double>& values) const;
+  void gather(ControllerValue value, std::vector<double>& values) const;
   std::vector<bool> eligible(const Question& question) const;
 
   const ColumnSource& source_;
+  Units units_;
   ParameterColumns parameters_;
   std::vector<double> x_values_, y_values_;
   std::vector<std::uint64_t> numbers_;

@@ -22,17 +22,25 @@ std::string names(const std::vector<Parameter>& parameters) {
   return joined(words);
 }
 
-std::optional<std::string> why_unavailable(Measure measure, const Grid& grid) {
+std::optional<std::string> why_unavailable(Measure measure, const Grid& grid, bool) {
   const bool stored = std::find(grid.measures.begin(), grid.measures.end(), measure) != grid.measures.end();
   if (stored) return std::nullopt;
   return fmt::format("measure \"{}\" is not stored in this portrait (stored: {})", to_string(measure),
                      names(grid.measures));
 }
 
-std::optional<std::string> why_unavailable(Parameter parameter, const Grid& grid) {
+std::optional<std::string> why_unavailable(Parameter parameter, const Grid& grid, bool) {
   if (applies(parameter, grid.family)) return std::nullopt;
   return fmt::format("this portrait has no parameter \"{}\" (it has: {})", to_string(parameter),
                      names(parameters_of(grid.family)));
+}
+
+std::optional<std::string> why_unavailable(ControllerValue value, const Grid& grid, bool has_plant) {
+  if (!has_plant)
+    return fmt::format("{} is in the units of a real plant: say which, with --plant K=..,Td=..", to_string(value));
+  if (value == ControllerValue::Tf && !applies(Parameter::tau_f, grid.family))
+    return "this portrait has no filter, so there is no Tf";
+  return std::nullopt;
 }
 
 }  // namespace
@@ -54,9 +62,10 @@ Expression parse_expression(const QueryText& text) {
   return parsed;
 }
 
-void require_available(const Expression& expression, const Grid& grid) {
+void require_available(const Expression& expression, const Grid& grid, bool has_plant) {
   for (const Expression::Use& use : expression.uses()) {
-    const auto why = std::visit([&](auto quantity) { return why_unavailable(quantity, grid); }, use.quantity);
+    const auto why =
+        std::visit([&](auto quantity) { return why_unavailable(quantity, grid, has_plant); }, use.quantity);
     if (why) fail_at(expression.whole(), use.offset, *why);
   }
 }

@@ -6,7 +6,8 @@
 ///     power    = operand ["^" signed]            to the right: 2^3^2 = 2^9; above the sign: -2^2 = -4
 ///     operand  = NUMBER | "inf" | NAME | "(" sum ")" | FUNCTION "(" sum ("," sum)* ")"
 ///
-/// NAME      a measure (engine/measures/catalogue.h) or a parameter (engine/loop/parameters.h)
+/// NAME      a measure (engine/measures/catalogue.h), a parameter (engine/loop/parameters.h) or a value of the real
+///           controller (ControllerValue)
 /// FUNCTION  abs, sqrt, log (natural), exp of one argument; min, max of two or more
 /// NaN       in any operand gives NaN
 /// limits    kMaxQueryText bytes, kMaxDepth levels, so that no text can exhaust the call stack
@@ -57,6 +58,10 @@ class Expression {
   void evaluate(const Columns& columns, ColumnStack& stack, std::vector<double>& values) const {
     program_.run(columns, stack, values);
   }
+  /// Encloses the values when each quantity lies in its interval.
+  Interval bound(const std::function<Interval(Quantity)>& of, std::vector<Interval>& stack) const {
+    return program_.bound(of, stack);
+  }
 
  private:
   QueryText whole_;
@@ -68,8 +73,8 @@ class Expression {
 /// Throws InputError with place, caret and the nearest valid word.
 Expression parse_expression(const QueryText& text);
 
-/// Throws InputError when the expression names a measure that the grid does not store or a parameter it does
-/// not have.
-void require_available(const Expression& expression, const Grid& grid);
+/// Throws InputError when the expression names a measure that the grid does not store, a parameter it does not
+/// have, or a value of the controller when there is no real plant to have one for.
+void require_available(const Expression& expression, const Grid& grid, bool has_plant);
 
 }  // namespace portrait

@@ -48,4 +48,24 @@ void ParameterColumns::read(Parameter parameter, std::uint64_t first, std::size_
   for (std::size_t i = 0; i < count; ++i) values[i] = wants_delta ? gains[i] * values[i] : values[i] / gains[i];
 }
 
+/// An axis increases, and a run that reaches its end starts again at its beginning.
+Interval ParameterColumns::spanned(const Source& source, std::uint64_t first, std::size_t count) {
+  const std::uint64_t from = first / source.stride, to = (first + count - 1) / source.stride;
+  const std::uint64_t size = source.values.size();
+  const bool whole = to - from >= size || from % size > to % size;
+  return {whole ? source.values.front() : source.values[from % size],
+          whole ? source.values.back() : source.values[to % size], false};
+}
+
+Interval ParameterColumns::bound(Parameter parameter, std::uint64_t first, std::size_t count) const {
+  if (const auto& source = sources_[position(parameter)]) return spanned(*source, first, count);
+  const bool wants_delta = parameter == Parameter::delta;
+  PORTRAIT_CHECK(wants_delta || parameter == Parameter::tau_d);
+  const auto& given = sources_[position(wants_delta ? Parameter::tau_d : Parameter::delta)];
+  const auto& kappa = sources_[position(Parameter::kappa)];
+  PORTRAIT_CHECK(given && kappa);
+  const Interval gain = spanned(*kappa, first, count), other = spanned(*given, first, count);
+  return wants_delta ? gain * other : other / gain;
+}
+
 }  // namespace portrait

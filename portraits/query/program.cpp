@@ -78,6 +78,57 @@ struct Run {
   }
 };
 
+/// The same over intervals.
+struct BoundRun {
+  const std::function<Interval(Quantity)>& of;
+  std::vector<Interval>& stack;
+  std::size_t height = 0;
+
+  void operator()(double number) { stack[height++] = Interval::of(number); }
+  void operator()(Quantity quantity) { stack[height++] = of(quantity); }
+  void operator()(Unary operation) { stack[height - 1] = worked(operation, stack[height - 1]); }
+  void operator()(Binary operation) {
+    --height;
+    stack[height - 1] = worked(operation, stack[height - 1], stack[height]);
+  }
+
+  static Interval worked(Unary operation, const Interval& x) {
+    switch (operation) {
+      case Unary::negate:
+        return -x;
+      case Unary::abs:
+        return abs(x);
+      case Unary::sqrt:
+        return sqrt(x);
+      case Unary::log:
+        return log(x);
+      case Unary::exp:
+        return exp(x);
+    }
+    return {};
+  }
+
+  static Interval worked(Binary operation, const Interval& x, const Interval& y) {
+    switch (operation) {
+      case Binary::add:
+        return x + y;
+      case Binary::subtract:
+        return x - y;
+      case Binary::multiply:
+        return x * y;
+      case Binary::divide:
+        return x / y;
+      case Binary::power:
+        return raised(x, y);
+      case Binary::min:
+        return smaller(x, y);
+      case Binary::max:
+        return larger(x, y);
+    }
+    return {};
+  }
+};
+
 }  // namespace
 
 void Program::grow() { max_height_ = std::max(max_height_, ++height_); }
@@ -119,6 +170,14 @@ void Program::run(const Columns& columns, ColumnStack& stack, std::vector<double
   Run run{columns, stack};
   for (const Step& step : steps_) std::visit(run, step);
   result.assign(stack[0].begin(), stack[0].end());
+}
+
+Interval Program::bound(const std::function<Interval(Quantity)>& of, std::vector<Interval>& stack) const {
+  PORTRAIT_CHECK_EQ(height_, std::size_t{1});
+  if (stack.size() < max_height_) stack.resize(max_height_);
+  BoundRun run{of, stack};
+  for (const Step& step : steps_) std::visit(run, step);
+  return stack[0];
 }
 
 }  // namespace portrait

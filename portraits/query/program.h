@@ -5,11 +5,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <variant>
 #include <vector>
 
 #include "portraits/query/columns.h"
+#include "portraits/query/interval.h"
 
 namespace portrait {
 
@@ -34,6 +36,9 @@ class Program {
   /// `result` gets columns.count values. REQUIRES: exactly one value is left at the end, and the columns of
   /// all quantities are filled.
   void run(const Columns& columns, ColumnStack& stack, std::vector<double>& result) const;
+
+  /// Encloses every value that `run` can give when each quantity lies in its interval. REQUIRES: as run.
+  Interval bound(const std::function<Interval(Quantity)>& of, std::vector<Interval>& stack) const;
 
  private:
   using Step = std::variant<double, Quantity, Unary, Binary>;

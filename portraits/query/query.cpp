@@ -5,78 +5,102 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
-#include "portraits/query/query_pass.h"
-#include "portraits/query/real_units.h"
+#include "portraits/query/price_pass.h"
+#include "portraits/query/select_pass.h"
 
 namespace portrait {
 namespace {
 
-void require_answerable(const Question& question, const Grid& grid) {
-  if (question.top < 1 || question.top > kMaxTop)
-    throw InputError(fmt::format("top must be 1 .. {} (it is {})", kMaxTop, question.top));
-  require_available(question.minimize, grid);
-  for (const Constraint& constraint : question.where) require_available(constraint, grid);
-  if (question.plant) require_fits(*question.plant, grid);
-}
+class Asking {
+ public:
+  Asking(const ColumnSource& source, const Question& question)
+      : source_(source),
+        question_(question),
+        sheet_(source, conditions().units, used(question), conditions().include_not_settled) {}
 
-MeasureRow measures_of(const ColumnSource& source, std::uint64_t number) {
-  MeasureRow row;
-  std::vector<double> value;
-  for (const Measure measure : source.grid().measures) {
-    source.read(measure, number, 1, value);
-    row[measure] = value.at(0);
+  Answer answer() const {
+    const Selection selection =
+        select(sheet_, question_.minimize, conditions().where, question_.top, conditions().threads);
+    Answer answer;
+    answer.admissible = selection.admissible;
+    answer.total = selection.counted.total;
+    answer.left_out = selection.counted.left_out;
+    for (const Candidate& candidate : selection.best.sorted()) answer.top.push_back(found(candidate));
+    answer.active = active(answer.top.empty() ? std::nullopt : std::optional(answer.top[0].objective));
+    if (answer.admissible == 0 || question_.count_excluded) explain_into(answer);
+    return answer;
   }
-  return row;
-}
 
-Found found(const ColumnSource& source, const Candidate& candidate) {
-  return {.number = candidate.number,
-          .setting = setting_at(source.grid(), candidate.number),
-          .measures = measures_of(source, candidate.number),
-          .objective = candidate.objective,
-          .status = candidate.status};
-}
+ private:
+  const Conditions& conditions() const { return question_.conditions; }
 
-/// Without the constraint the best is the better of the optimum and the best setting that it alone excludes.
-std::vector<ActiveConstraint> active_constraints(const ColumnSource& source, const Tally& tally) {
-  std::vector<ActiveConstraint> active;
-  const std::vector<Candidate> optimum = tally.best.sorted();
-  for (std::size_t j = 0; j < tally.best_without.size(); ++j) {
-    const std::vector<Candidate> without = tally.best_without[j].sorted();
-    if (without.empty()) continue;
-    const bool better = optimum.empty() || without[0].objective < optimum[0].objective;
-    if (better) active.push_back({j, found(source, without[0])});
+  static std::vector<Quantity> used(const Question& question) {
+    std::vector<Quantity> all;
+    collect(question.minimize, all);
+    for (const Constraint& constraint : question.conditions.where) collect(constraint, all);
+    return all;
   }
-  return active;
-}
 
-void explain_nothing(Answer& answer, const ColumnSource& source, const Tally& tally) {
-  const auto most = std::max_element(tally.excluded.begin(), tally.excluded.end());
-  if (most != tally.excluded.end() && *most > 0)
-    answer.strictest = static_cast<std::size_t>(most - tally.excluded.begin());
-  if (tally.nearest)
-    answer.near_miss = NearMiss{found(source, tally.nearest->candidate), tally.nearest->violations};
-}
+  Found found(const Candidate& candidate) const {
+    return found_at(source_, conditions().units, candidate.number, candidate.objective);
+  }
 
-Answer answer_from(const ColumnSource& source, const Tally& tally) {
-  Answer answer;
-  answer.admissible = tally.admissible;
-  answer.total = tally.total;
-  answer.left_out = tally.left_out;
-  answer.excluded = tally.excluded;
-  for (const Candidate& candidate : tally.best.sorted()) answer.top.push_back(found(source, candidate));
-  answer.active = active_constraints(source, tally);
-  if (tally.admissible == 0) explain_nothing(answer, source, tally);
-  return answer;
-}
+  /// Without the constraint the best is the better of the optimum and the best setting that it alone excludes.
+  std::vector<ActiveConstraint> active(std::optional<double> optimum) const {
+    std::vector<ActiveConstraint> all;
+    const Prices prices = price(sheet_, question_.minimize, conditions().where, optimum, conditions().threads);
+    for (std::size_t j = 0; j < prices.by_constraint.size(); ++j) {
+      const Price& price = prices.by_constraint[j];
+      if (!price.without) continue;
+      all.push_back({j, found(*price.without), std::nullopt});
+      if (const auto& least = price.loosened)
+        all.back().loosened = {found(least->candidate), least->left, least->right, least->violation};
+    }
+    return all;
+  }
+
+  void explain_into(Answer& answer) const {
+    const Explanation why = explain(sheet_, question_.minimize, conditions().where, conditions().threads);
+    answer.excluded = why.excluded;
+    if (answer.admissible > 0) return;
+    const auto most = std::max_element(why.excluded.begin(), why.excluded.end());
+    if (most != why.excluded.end() && *most > 0)
+      answer.strictest = static_cast<std::size_t>(most - why.excluded.begin());
+    if (why.nearest) answer.near_miss = NearMiss{found(why.nearest->candidate), why.nearest->violations};
+  }
+
+  const ColumnSource& source_;
+  const Question& question_;
+  Sheet sheet_;
+};
 
 }  // namespace
 
+void require_answerable(const Conditions& conditions, const Grid& grid) {
+  for (const Constraint& constraint : conditions.where)
+    require_available(constraint, grid, conditions.units.plant.has_value());
+  require_fits(conditions.units, grid);
+}
+
+Found found_at(const ColumnSource& source, const Units& units, std::uint64_t number, double objective) {
+  Found found{number, setting_at(source.grid(), number), {}, objective, Status::not_computed};
+  std::vector<double> value;
+  std::vector<Status> status;
+  for (const Measure measure : source.grid().measures) {
+    source.read(measure, number, 1, value);
+    found.measures[measure] = value.at(0) * factor(measure, units);
+  }
+  source.read_statuses(number, 1, status);
+  found.status = status.at(0);
+  return found;
+}
+
 Answer ask(const ColumnSource& source, const Question& question) {
-  require_answerable(question, source.grid());
-  if (!question.plant) return answer_from(source, QueryPass(source, question, std::nullopt).run());
-  const RealUnits real(source, *question.plant);
-  return answer_from(real, QueryPass(real, question, slice_of(*question.plant, source.grid())).run());
+  if (question.top < 1 || question.top > kMaxTop)
+    throw InputError(fmt::format("top must be 1 .. {} (it is {})", kMaxTop, question.top));
+  require_available(question.minimize, source.grid(), question.conditions.units.plant.has_value());
+  require_answerable(question.conditions, source.grid());
+  return Asking(source, question).answer();
 }
 
 }  // namespace portrait

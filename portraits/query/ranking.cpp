@@ -1,6 +1,7 @@
 #include "portraits/query/ranking.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace portrait {
 
@@ -12,6 +13,10 @@ void Ranking::offer(const Candidate& candidate) {
   }
   heap_.push_back(candidate);
   std::push_heap(heap_.begin(), heap_.end(), is_better);
+}
+
+double Ranking::worst_that_enters() const {
+  return heap_.size() < size_ ? std::numeric_limits<double>::infinity() : heap_.front().objective;
 }
 
 std::vector<Candidate> Ranking::sorted() const {

@@ -26,6 +26,8 @@ class Ranking {
   explicit Ranking(std::size_t size) : size_(size) {}
 
   void offer(const Candidate& candidate);
+  /// An objective above this does not enter any more; inf as long as there is room.
+  double worst_that_enters() const;
   /// Best first.
   std::vector<Candidate> sorted() const;
 

@@ -5,6 +5,7 @@ HDF5 itself finds nothing wrong with these files: every change is made through i
 usage: edited_with_h5py.py SAMPLE_PORTRAIT    (the helper program that writes sample portraits)
 """
 
+import ctypes
 import os
 import shutil
 import subprocess
@@ -50,6 +51,30 @@ def drop_a_column(file):
 
 def drop_tile_digests(file):
     del file["tile_digests/Ms"]
+
+
+def digest_of(values):
+    xxhash = ctypes.CDLL("libxxhash.so.0")
+    xxhash.XXH3_64bits.restype = ctypes.c_uint64
+    return f"{xxhash.XXH3_64bits(values, ctypes.c_size_t(len(values))):016x}"
+
+
+def drop_summaries(file):
+    del file["tile_summaries/Ms"]
+
+
+def drop_all_summaries(file):  # a file of format 1.1
+    del file["tile_summaries"]
+
+
+def change_a_summary(file):
+    file["tile_summaries/Ms"][0, 1] -= 1e-9
+
+
+def change_a_summary_and_its_digest(file):
+    summaries = file["tile_summaries/status"]
+    summaries[0, 1] += 1
+    summaries.attrs.modify("xxh3_64", numpy.bytes_(digest_of(summaries[()].tobytes())))
 
 
 def drop_an_attribute(file):
@@ -140,6 +165,10 @@ CASES = [
     (exchange_columns, 4, ["IAE_w " + TILE_DIFFERS, "Ms " + TILE_DIFFERS]),
     (drop_a_column, 4, ["TV2_uw is missing"]),
     (drop_tile_digests, 4, ["tile_digests/Ms is missing"]),
+    (drop_summaries, 4, ["tile_summaries/Ms is missing"]),
+    (drop_all_summaries, 0, []),
+    (change_a_summary, 4, ["tile_summaries/Ms " + DIFFERS]),
+    (change_a_summary_and_its_digest, 4, ["tile_summaries/status does not fit the values of tile 0"]),
     (drop_an_attribute, 4, ["attribute plant is missing"]),
     (number_for_text, 4, ["attribute plant is not a text"]),
     (text_for_number, 4, ["attribute n is not a whole number"]),

@@ -43,7 +43,7 @@ def check_names(document, path):
     described = set(re.findall(r"`([^`\n]+)`", document))
     with h5py.File(path, "r") as file:
         names = set(file.attrs) | set(file)
-        for dataset in list(file.values()) + list(file["tile_digests"].values()):
+        for dataset in [*file.values(), *file["tile_digests"].values(), *file["tile_summaries"].values()]:
             names |= set(dataset.attrs)
     missing = names - DIMENSION_SCALES - described
     assert not missing, f"not described: {sorted(missing)}"
@@ -51,7 +51,7 @@ def check_names(document, path):
 
 def check_texts(path):
     with h5py.File(path, "r") as file:
-        for item in [file, *file.values(), *file["tile_digests"].values()]:
+        for item in [file, *file.values(), *file["tile_digests"].values(), *file["tile_summaries"].values()]:
             for name in set(item.attrs) - DIMENSION_SCALES:
                 kind = h5py.check_string_dtype(item.attrs.get_id(name).dtype)
                 assert kind is None or (kind.encoding == "utf-8" and kind.length), (item.name, name, kind)

@@ -71,7 +71,49 @@ class Query(ProgramTest):
         for part in ("controller for K e^(-Td s)/s^2, K = 3, Td = 0.5", "Kp + Ki/s + Kd s", "Kc (1 + 1/(Ti s) + TD s)",
                      "real units, unit steps"):
             self.assertIn(part, result.out)
-        self.assertIn("bounds on measures are taken in real units", result.err)
+        self.assertEqual(result.err, "")
+
+    def test_says_which_unit_each_bound_is_in(self):
+        arguments = ("--minimize", "IAE_d", "--where", "Kc <= 3", "--where", "u_max_w <= 10", "--where", "tau_i >= 8", "--where",
+                     "Ms <= 3", "--plant", "K=3,Td=0.5", "--step", "w=2,d=0.25")
+        result = self.query(*arguments)
+        for line in ("Kc <= 3         Kc: real, unit of u per unit of y\n",
+                     "u_max_w <= 10   u_max_w: real, unit of u, for a step of 2 in the setpoint\n",
+                     "tau_i >= 8      tau_i: normalised, Ti/Td\n", "Ms <= 3         Ms: a pure number\n",
+                     "real units, steps w = 2, d = 0.25"):
+            self.assertIn(line, result.out)
+        answer = self.query(*arguments, "--json").json
+        self.assertEqual(answer["steps"], {"w": 2, "d": 0.25})
+        self.assertEqual(answer["constraints"][0], {"constraint": "Kc <= 3", "units": {"Kc": "real, unit of u per unit of y"}})
+
+    def test_values_of_the_controller_need_a_plant(self):
+        self.assert_fails(self.query("--minimize", "IAE_d", "--where", "Kc <= 3"), 2,
+                          "--where:1:1: Kc is in the units of a real plant: say which, with --plant K=..,Td=..\n  Kc <= 3\n  ^")
+        self.assert_fails(self.query("--minimize", "IAE_d", "--where", "Tf <= 3", "--plant", "K=1,Td=1"), 2,
+                          "--where:1:1: this portrait has no filter, so there is no Tf\n  Tf <= 3\n  ^")
+
+    def test_controller_values_are_those_of_the_answer(self):
+        for name, form, key in (("Kc", "standard", "Kc"), ("Ti", "standard", "Ti"), ("TD", "standard", "TD"),
+                                ("Ki", "parallel", "Ki"), ("Kd", "parallel", "Kd")):
+            best = self.query("--minimize", name, "--plant", "K=3,Td=0.5", "--json").json["optimum"]
+            self.assertAlmostEqual(best["objective"], best["controller"][form][key], places=12)
+
+    def test_steps_scale_what_is_linear_and_what_is_squared(self):
+        plain = self.query("--minimize", "IAE_d", "--json").json["optimum"]["measures"]
+        large = self.query("--minimize", "IAE_d", "--step", "w=2,d=3", "--json").json["optimum"]["measures"]
+        for name, factor in (("IAE_w", 2), ("ISE_w", 4), ("TV_uw", 2), ("IAE_d", 3), ("ISE_d", 9), ("ITSE_d", 9), ("y_max_d", 3),
+                             ("Ms", 1), ("DM", 1)):
+            self.assertAlmostEqual(large[name], factor * plain[name], delta=1e-12 * large[name])
+
+    def test_price_of_an_active_constraint(self):
+        bound = sorted(float(row["Ms"]) for row in csv.DictReader(io.StringIO(
+            self.query("--minimize", "Ms", "--top", "100", "--csv").out)))[3]
+        answer = self.query("--minimize", "IAE_d", "--where", f"Ms <= {bound}", "--json").json
+        (active,) = answer["active"]
+        self.assertGreater(active["loosened"]["value"], bound)
+        self.assertAlmostEqual(active["loosened"]["by"], active["loosened"]["value"] / bound - 1)
+        again = self.query("--minimize", "IAE_d", "--where", f"Ms <= {active['loosened']['value']}", "--json").json
+        self.assertEqual(again["optimum"]["objective"], active["loosened"]["objective"])
 
     def test_csv(self):
         result = self.query("--minimize", "IAE_w", "--top", "100", "--csv")
@@ -99,6 +141,8 @@ class Query(ProgramTest):
             (("--minimize", "IAE_w", "--plant", "K=1,Td=x"), '--plant: "x" is not a number'),
             (("--minimize", "IAE_w", "--plant", "K=1,Tx=1"), '--plant: unknown name "Tx" (did you mean "Td"?)'),
             (("--minimize", "IAE_w", "--plant", "K=1,Td=1,T1=1"), "--plant: T1 belongs to fotd, not to dipdt"),
+            (("--minimize", "IAE_w", "--step", "x=1"), '--step: unknown step "x": w is the setpoint, d the input disturbance'),
+            (("--minimize", "IAE_w", "--step", "w=0"), "--step: w must be finite and above 0 (it is 0)"),
             (("--minimize", "IAE_w", "--plant", "1"), '--plant: "1" is not of the form NAME=NUMBER'),
         ]
         for arguments, message in cases:

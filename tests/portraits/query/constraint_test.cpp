@@ -28,7 +28,7 @@ Grid small_grid() {
 }
 
 std::string unfit(const std::string& text) {
-  return error_text([&] { require_available(parsed(text), small_grid()); });
+  return error_text([&] { require_available(parsed(text), small_grid(), false); });
 }
 
 TEST(Constraint, has_two_sides_and_a_relation) {

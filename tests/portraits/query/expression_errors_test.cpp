@@ -91,7 +91,7 @@ Grid grid_with(std::vector<Measure> measures) {
 TEST(ExpressionErrors, names_what_the_portrait_lacks) {
   const Grid grid = grid_with({Measure::IAE_w, Measure::TV2_uw});
   const auto lack = [&](const std::string& text) {
-    return error_text([&] { require_available(parsed(text), grid); });
+    return error_text([&] { require_available(parsed(text), grid, false); });
   };
   EXPECT_EQ(lack("IAE_w + TV2_uw*kappa + tau_d + b"), "no InputError");
   EXPECT_EQ(lack("IAE_w + Ms"),
@@ -100,7 +100,7 @@ TEST(ExpressionErrors, names_what_the_portrait_lacks) {
   EXPECT_EQ(lack("tau_f"),
             "--minimize:1:1: this portrait has no parameter \"tau_f\" (it has: kappa, tau_i, delta, tau_d, b)\n"
             "  tau_f\n  ^");
-  EXPECT_EQ(error_text([] { require_available(parsed("Ms"), grid_with({})); }),
+  EXPECT_EQ(error_text([] { require_available(parsed("Ms"), grid_with({}), false); }),
             "--minimize:1:1: measure \"Ms\" is not stored in this portrait (stored: none)\n  Ms\n  ^");
 }
 

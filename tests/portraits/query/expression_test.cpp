@@ -119,7 +119,7 @@ TEST(Expression, knows_every_measure_and_parameter) {
     ASSERT_TRUE(quantity) << name;
     EXPECT_EQ(to_string(*quantity), name);
   }
-  EXPECT_EQ(quantity_names().size(), kMeasureCount + kParameterCount);
+  EXPECT_EQ(quantity_names().size(), kQuantityCount);
 }
 
 TEST(Expression, says_what_it_is) {

@@ -13,7 +13,7 @@ TEST(QueryPlant, measures_are_in_real_units_and_parameters_stay_normalised) {
   const RealPlant plant{.family = Plant::dipdt, .K = -2, .Td = 3};
   Question asked = question("IAE_w", {"TV2_uw <= 0.2", "kappa <= 0.45"});
   EXPECT_TRUE(ask(source, asked).top.empty());  // normalised, TV2_uw is at least 1
-  asked.plant = plant;
+  asked.conditions.units.plant = plant;
   const Answer answer = ask(source, asked);  // TV2_uw/18 <= 0.2 is TV2_uw <= 3.6
   ASSERT_EQ(numbers(answer), Numbers{2});
   EXPECT_EQ(answer.admissible, 2u);
@@ -39,7 +39,7 @@ Grid fotd_grid() {
 
 std::string plant_problem(const Grid& grid, const RealPlant& plant) {
   Question asked = question("IAE_w");
-  asked.plant = plant;
+  asked.conditions.units.plant = plant;
   return error_text([&] { ask(MemorySource(grid), asked); });
 }
 
@@ -49,25 +49,25 @@ TEST(QueryPlant, of_fotd_asks_the_slice_of_its_time_constant) {
   source.status(2) = Status::unstable;
   source.status(0) = Status::unstable;
   Question asked = question("IAE_w", {}, 99);
-  asked.plant = RealPlant{.family = Plant::fotd, .K = 2, .Td = 0.3, .T1 = 0.75};
+  asked.conditions.units.plant = RealPlant{.family = Plant::fotd, .K = 2, .Td = 0.3, .T1 = 0.75};
   const Answer answer = ask(source, asked);
   ASSERT_EQ(numbers(answer), (Numbers{15, 14, 9, 8, 3}));
   EXPECT_EQ(answer.total, 6u);
   EXPECT_EQ(answer.left_out.unstable, 1u);
   for (const Found& one : answer.top) EXPECT_EQ(one.setting.tau_1, 2.5);
-  asked.plant.reset();
+  asked.conditions.units.plant.reset();
   EXPECT_EQ(ask(source, asked).total, 18u);
 }
 
 TEST(QueryPlant, the_slice_of_a_leading_axis_skips_the_rest) {
   Grid grid = fotd_grid();
-  grid.axes = {Axis::list(Parameter::tau_1, {0.5, 2.5, 2.6}), Axis::linear(Parameter::kappa, 1, 2, kBlockSettings)};
+  grid.axes = {Axis::list(Parameter::tau_1, {0.5, 2.5, 2.6}), Axis::linear(Parameter::kappa, 1, 2, kTileSettings)};
   grid.fixed = {{Parameter::tau_i, 8}, {Parameter::delta, 0}};
   const MemorySource source(grid);
   Question asked = question("IAE_w");
-  asked.plant = RealPlant{.family = Plant::fotd, .K = 1, .Td = 2, .T1 = 5};
-  ASSERT_EQ(numbers(ask(source, asked)), Numbers{kBlockSettings});
-  EXPECT_EQ(source.values_read(), kBlockSettings + 1);
+  asked.conditions.units.plant = RealPlant{.family = Plant::fotd, .K = 1, .Td = 2, .T1 = 5};
+  ASSERT_EQ(numbers(ask(source, asked)), Numbers{kTileSettings});
+  EXPECT_EQ(source.values_read(), kTileSettings + 1);
 }
 
 TEST(QueryPlant, is_refused_when_it_does_not_fit) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/portraits/query/error_text.h"
@@ -41,15 +42,18 @@ TEST(Query, top_is_sorted_and_ties_go_to_the_lower_number) {
 }
 
 TEST(Query, only_settings_under_every_constraint_count) {
-  const Answer answer =
-      ask(five({1, 2, 3, 4, 5}, {9, 8, 3, 2, 1}), question("IAE_w", {"TV2_uw <= 3", "kappa == 0.4"}));
+  Question asked = question("IAE_w", {"TV2_uw <= 3", "kappa == 0.4"});
+  EXPECT_TRUE(ask(five({1, 2, 3, 4, 5}, {9, 8, 3, 2, 1}), asked).excluded.empty());
+  asked.count_excluded = true;
+  const Answer answer = ask(five({1, 2, 3, 4, 5}, {9, 8, 3, 2, 1}), asked);
   ASSERT_EQ(numbers(answer), Numbers{3});
   EXPECT_EQ(answer.admissible, 1u);
   EXPECT_EQ(answer.excluded, (Numbers{2, 4}));
 }
 
 TEST(Query, counts_what_is_left_out_and_why) {
-  MemorySource source = five({1, 2, 3, kNaN, 5}, {1, 1, 1, 1, 1});
+  MemorySource source = five({kNaN, 2, 3, kNaN, 5}, {kNaN, 1, 1, 1, 1});
+  source.at(Measure::IAE_d, 0) = kNaN;
   source.status(0) = Status::unstable;
   source.status(1) = Status::not_settled;
   source.status(2) = Status::not_computed;
@@ -62,7 +66,7 @@ TEST(Query, counts_what_is_left_out_and_why) {
   EXPECT_EQ(answer.left_out.objective_missing, 1u);
   EXPECT_EQ(answer.admissible, 1u);
   EXPECT_EQ(answer.total, 5u);
-  asked.include_not_settled = true;
+  asked.conditions.include_not_settled = true;
   const Answer with = ask(source, asked);
   ASSERT_EQ(numbers(with), Numbers{1});
   EXPECT_EQ(with.top[0].status, Status::not_settled);
@@ -71,7 +75,9 @@ TEST(Query, counts_what_is_left_out_and_why) {
 }
 
 TEST(Query, nan_in_a_constraint_makes_a_setting_inadmissible) {
-  const Answer answer = ask(five({1, 2, 3, 4, 5}, {kNaN, kNaN, 1, 1, 1}), question("IAE_w", {"TV2_uw <= 3"}));
+  Question asked = question("IAE_w", {"TV2_uw <= 3"});
+  asked.count_excluded = true;
+  const Answer answer = ask(five({1, 2, 3, 4, 5}, {kNaN, kNaN, 1, 1, 1}), asked);
   ASSERT_EQ(numbers(answer), Numbers{2});
   EXPECT_EQ(answer.excluded, Numbers{2});
 }
@@ -150,13 +156,14 @@ TEST(Query, of_a_single_setting) {
   EXPECT_EQ(answer.top[0].objective, 1.25);
 }
 
-TEST(Query, blocks_meet_without_gap_or_overlap) {
-  for (const std::uint64_t total :
-       {kBlockSettings - 1, kBlockSettings, kBlockSettings + 1, 2 * kBlockSettings + 3}) {
+TEST(Query, tiles_meet_without_gap_or_overlap) {
+  for (const std::uint64_t total : {kTileSettings - 1, kTileSettings, kTileSettings + 1, 2 * kTileSettings + 3}) {
     MemorySource source(line(total));
-    for (const std::uint64_t best : {std::uint64_t{0}, total / 2, kBlockSettings - 2, total - 1}) {
+    for (const std::uint64_t best : {std::uint64_t{0}, total / 2, kTileSettings - 2, total - 1}) {
       source.at(Measure::IAE_w, best) = -1;
-      const Answer answer = ask(source, question("IAE_w", {"IAE_w < 0", "IAE_d == 1"}));
+      Question asked = question("IAE_w", {"IAE_w < 0", "IAE_d == 1"});
+      asked.count_excluded = true;
+      const Answer answer = ask(source, asked);
       ASSERT_EQ(numbers(answer), Numbers{best}) << total;
       EXPECT_EQ(answer.admissible, 1u);
       EXPECT_EQ(answer.total, total);
@@ -166,19 +173,61 @@ TEST(Query, blocks_meet_without_gap_or_overlap) {
   }
 }
 
-TEST(Query, reads_each_column_in_use_once_in_blocks) {
-  const std::uint64_t total = 3 * kBlockSettings + 7;
+/// What the answer itself takes: every measure of the one setting.
+constexpr std::uint64_t kOfTheAnswer = 3;
+
+/// And the objective once more, to see what the constraints cost.
+TEST(Query, without_summaries_reads_each_column_in_use_once_in_tiles) {
+  const std::uint64_t total = 3 * kTileSettings;
   MemorySource source(line(total));
-  ask(source, question("IAE_w", {"IAE_w + TV2_uw <= 9", "kappa < 1"}));
-  EXPECT_EQ(source.values_read(), 2 * total + 3);  // and the three measures of the one answer
-  EXPECT_EQ(source.longest_read(), kBlockSettings);
+  source.know_summaries(false);
+  ask(source, question("IAE_w", {"IAE_w + TV2_uw <= 9", "kappa < 1000"}));
+  EXPECT_EQ(source.values_read(), 3 * total + kOfTheAnswer);
+  EXPECT_EQ(source.longest_read(), kTileSettings);
+}
+
+TEST(Query, reads_no_tile_that_its_range_rules_out) {
+  MemorySource source(line(4 * kTileSettings));
+  for (std::uint64_t i = 0; i < 4 * kTileSettings; ++i) source.at(Measure::TV2_uw, i) = static_cast<double>(i);
+  const double bound = 1.5 * kTileSettings;
+  source.at(Measure::IAE_w, 3 * kTileSettings) = 0.5;  // better, but excluded
+  const Answer answer = ask(source, question("IAE_w", {fmt::format("TV2_uw <= {}", bound)}));
+  EXPECT_EQ(answer.admissible, static_cast<std::uint64_t>(bound) + 1);
+  ASSERT_EQ(numbers(answer), Numbers{0});
+  // IAE_w of the first, admissible throughout; TV2_uw of the second, whose IAE_w is 1 as well and so is read too; both
+  // of the last for the price.
+  EXPECT_EQ(source.values_read(), 5 * kTileSettings + 2 * kOfTheAnswer + kOfTheAnswer);
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].optimum.number, 3 * kTileSettings);
+}
+
+TEST(Query, reads_only_what_may_hold_the_best) {
+  MemorySource source(line(100 * kTileSettings));
+  for (std::uint64_t i = 0; i < 100 * kTileSettings; ++i)
+    source.at(Measure::IAE_w, i) = std::abs(static_cast<double>(i) - 70.5 * kTileSettings);
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 1"}));
+  ASSERT_EQ(numbers(answer), Numbers{70 * kTileSettings + kTileSettings / 2});
+  EXPECT_EQ(answer.admissible, 100 * kTileSettings);
+  EXPECT_LE(source.values_read(), 40 * kTileSettings);  // threads take tiles sixteen at a time
 }
 
 TEST(Query, skips_measures_where_nothing_is_stable) {
-  MemorySource source(line(2 * kBlockSettings));
-  for (std::uint64_t i = 0; i < kBlockSettings; ++i) source.status(i) = Status::unstable;
+  MemorySource source(line(2 * kTileSettings));
+  for (std::uint64_t i = 0; i < kTileSettings; ++i) source.status(i) = Status::unstable;
   ask(source, question("IAE_w"));
-  EXPECT_EQ(source.values_read(), kBlockSettings + 3);
+  EXPECT_EQ(source.values_read(), kTileSettings + kOfTheAnswer);
+}
+
+TEST(Query, the_price_of_a_constraint_is_the_least_loosening_that_helps) {
+  const MemorySource source = five({1, 2, 3, 4, 5}, {9, 8, 7, 2, 1});
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 2"}));
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].optimum.number, 0u);
+  ASSERT_TRUE(answer.active[0].loosened);  // TV2_uw <= 7 lets setting 2 in
+  EXPECT_EQ(answer.active[0].loosened->found.number, 2u);
+  EXPECT_EQ(answer.active[0].loosened->left, 7);
+  EXPECT_EQ(answer.active[0].loosened->right, 2);
+  EXPECT_EQ(answer.active[0].loosened->relative, 2.5);
 }
 
 TEST(Query, refuses_a_question_that_does_not_fit) {

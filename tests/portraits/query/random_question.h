@@ -1,6 +1,7 @@
 /// Random portraits and random questions about them. Only within a property: they draw from RapidCheck.
 #pragma once
 
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -44,23 +45,30 @@ inline Grid random_grid() {
   return grid;
 }
 
-/// Either few different numbers, so that there are many ties, or all different; some NaN and infinite ones;
-/// all four outcomes.
+/// Few different numbers, so that there are many ties, or all different, or numbers that change slowly from setting to
+/// setting, so that tiles can be told apart by their ranges; some NaN and infinite ones; all four outcomes. What is
+/// unstable is NaN, as in a portrait. Sometimes nothing is known of tiles, as in an older portrait.
 inline MemorySource random_source(const Grid& grid) {
   std::mt19937 random(*rc::gen::arbitrary<unsigned>());
   const bool mostly_bad = *rc::gen::inRange(0, 8) == 0;
-  const bool all_different = *rc::gen::arbitrary<bool>();
+  const int kind = *rc::gen::inRange(0, 3);
   const std::vector<double> pool = {0, 0.5, 1, 1, 2, 3, 5, 8, 13, kInf, kNaN};
   MemorySource source(grid);
   for (std::uint64_t i = 0; i < setting_count(grid); ++i) {
     for (const Measure measure : grid.measures) {
       const double value = pool[random() % pool.size()];
-      source.at(measure, i) = all_different ? value + std::uniform_real_distribution<>(0, 5)(random) : value;
+      const double slow = 10 * std::sin(1e-3 * static_cast<double>(i) * (2 + static_cast<int>(measure)));
+      source.at(measure, i) = kind == 0   ? value
+                              : kind == 1 ? value + std::uniform_real_distribution<>(0, 5)(random)
+                                          : std::floor(20 * slow) / 20;
     }
     const unsigned draw = random() % 16;
     const bool settled = mostly_bad ? draw == 0 : draw < 10;
     source.status(i) = settled ? Status::settled : static_cast<Status>(random() % 4);
+    if (source.status(i) != Status::unstable) continue;
+    for (const Measure measure : grid.measures) source.at(measure, i) = kNaN;
   }
+  source.know_summaries(*rc::gen::inRange(0, 4) != 0);
   return source;
 }
 
@@ -76,23 +84,25 @@ inline TreeConstraint random_constraint() {
 
 inline Case random_case(const Grid& grid) {
   const Tree objective = random_tree(*rc::gen::inRange(0, 3), kNamed);
-  Case one{
-      objective, {}, {.minimize = parse_expression({"--minimize", print(objective)}), .where = {}, .plant = {}}};
+  Case one{objective, {}, {.minimize = parse_expression({"--minimize", print(objective)}), .conditions = {}}};
   const int constraints = *rc::gen::inRange(0, 5);
   for (int j = 0; j < constraints; ++j) {
     one.where.push_back(random_constraint());
     const TreeConstraint& c = one.where.back();
     const std::string relation(to_string(c.relation));
-    one.question.where.push_back(
+    one.question.conditions.where.push_back(
         parse_constraint({"--where", print(c.left) + " " + relation + " " + print(c.right)}));
   }
   one.question.top = *rc::gen::inRange<std::size_t>(1, 20);
-  one.question.include_not_settled = *rc::gen::arbitrary<bool>();
+  one.question.count_excluded = *rc::gen::arbitrary<bool>();
+  one.question.conditions.threads = *rc::gen::inRange(1, 4);
+  one.question.conditions.include_not_settled = *rc::gen::arbitrary<bool>();
   if (*rc::gen::arbitrary<bool>()) {
     const bool fotd = grid.family.plant == Plant::fotd;
     const double Td = *rc::gen::element(0.5, 1.0, 3.0);
-    one.question.plant = RealPlant{grid.family.plant, *rc::gen::element(-2.0, 0.5), Td,
-                                   fotd ? Td * *rc::gen::element(0.5, 1.5, 3.0) : 0};
+    one.question.conditions.units.plant = RealPlant{grid.family.plant, *rc::gen::element(-2.0, 0.5), Td,
+                                                    fotd ? Td * *rc::gen::element(0.5, 1.5, 3.0) : 0};
+    one.question.conditions.units.steps = {*rc::gen::element(0.5, 1.0, 4.0), *rc::gen::element(0.25, 1.0, 3.0)};
   }
   return one;
 }

@@ -31,8 +31,8 @@ inline MemorySource five(std::vector<double> IAE_w, std::vector<double> TV2_uw) 
 
 inline Question question(const std::string& minimize, const std::vector<std::string>& where = {},
                          std::size_t top = 1) {
-  Question asked{.minimize = parse_expression({"--minimize", minimize}), .where = {}, .top = top, .plant = {}};
-  for (const std::string& text : where) asked.where.push_back(parse_constraint({"--where", text}));
+  Question asked{.minimize = parse_expression({"--minimize", minimize}), .conditions = {}, .top = top};
+  for (const std::string& text : where) asked.conditions.where.push_back(parse_constraint({"--where", text}));
   return asked;
 }
 

@@ -1,0 +1,108 @@
+/// Bounds against values: whatever an expression gives for numbers out of the intervals lies in its bound.
+#include "portraits/query/interval.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "portraits/query/constraint.h"
+#include "tests/portraits/query/expression_tree.h"
+
+namespace portrait {
+namespace {
+
+const std::vector<Quantity> kNamed = {Measure::IAE_w, Measure::IAE_d, Parameter::kappa};
+
+struct Box {
+  std::array<std::vector<double>, 3> values;  ///< of each name: what it can be
+
+  static std::size_t index(Quantity quantity) {
+    return static_cast<std::size_t>(std::find(kNamed.begin(), kNamed.end(), quantity) - kNamed.begin());
+  }
+  Interval bound(Quantity quantity) const {
+    Interval hull = Interval::none();
+    hull.may_be_nan = false;
+    for (const double value : values[index(quantity)]) {
+      hull.may_be_nan |= std::isnan(value);
+      if (value < hull.low) hull.low = value;
+      if (value > hull.high) hull.high = value;
+    }
+    return hull;
+  }
+};
+
+Box random_box() {
+  Box box;
+  const std::vector<double> pool = {-kInf, -1e300, -3,  -1, -0.5, -1e-300, -0.0,  0.0,  1e-300, 0.1,
+                                    0.5,   1,      1.7, 2,  5,    1e5,     1e300, kInf, kNaN};
+  for (std::vector<double>& values : box.values) {
+    const int count = *rc::gen::inRange(1, 5);
+    const bool tame = *rc::gen::arbitrary<bool>();
+    for (int i = 0; i < count; ++i)
+      values.push_back(tame ? 0.01 * *rc::gen::inRange(0, 1000) : *rc::gen::elementOf(pool));
+  }
+  return box;
+}
+
+RC_GTEST_PROP(IntervalProperty, encloses_every_value, ()) {
+  const Tree tree = random_tree(*rc::gen::inRange(0, 4), kNamed);
+  const Box box = random_box();
+  std::vector<Interval> stack;
+  const Expression expression = parse_expression({"test", print(tree)});
+  const Interval bound = expression.bound([&](Quantity quantity) { return box.bound(quantity); }, stack);
+  RC_LOG() << print(tree) << " in [" << bound.low << ", " << bound.high << "]\n";
+  for (const double a : box.values[0])
+    for (const double b : box.values[1])
+      for (const double c : box.values[2]) {
+        const double numbers[] = {a, b, c};
+        const double value = value_of(tree, [&](Quantity quantity) { return numbers[Box::index(quantity)]; });
+        const bool enclosed = std::isnan(value) ? bound.may_be_nan : bound.low <= value && value <= bound.high;
+        RC_ASSERT(enclosed);
+      }
+}
+
+RC_GTEST_PROP(IntervalProperty, an_outlook_is_never_wrong, ()) {
+  const Box box = random_box();
+  const auto relation = static_cast<Relation>(*rc::gen::inRange(0, 5));
+  const Outlook found = outlook(relation, box.bound(kNamed[0]), box.bound(kNamed[1]));
+  for (const double a : box.values[0])
+    for (const double b : box.values[1]) {
+      const bool held = holds(relation, a, b);
+      RC_ASSERT(found == Outlook::maybe || held == (found == Outlook::always));
+    }
+}
+
+TEST(Interval, bounds_are_tight_where_they_can_be) {
+  const Interval x{1, 2, false}, y{-3, 4, false};
+  EXPECT_EQ((x + y).low, -2);
+  EXPECT_EQ((x + y).high, 6);
+  EXPECT_EQ((x * y).low, -6);
+  EXPECT_EQ((x * y).high, 8);
+  EXPECT_EQ((x - y).high, 5);
+  EXPECT_EQ((y / x).low, -3);
+  EXPECT_EQ(abs(y).low, 0);
+  EXPECT_EQ(abs(y).high, 4);
+  EXPECT_EQ(smaller(x, y).high, 2);
+  EXPECT_EQ(larger(x, y).low, 1);
+  EXPECT_FALSE((x * y).may_be_nan);
+  EXPECT_NEAR(raised(x, {2, 3, false}).high, 8, 1e-12);
+  EXPECT_NEAR(log(x).high, std::log(2), 1e-15);
+}
+
+TEST(Outlook, decides_what_the_sides_leave_no_doubt_about) {
+  const Interval low{1, 2, false}, high{3, 4, false}, wide{0, 9, false}, with_nan{1, 2, true};
+  EXPECT_EQ(outlook(Relation::at_most, low, high), Outlook::always);
+  EXPECT_EQ(outlook(Relation::at_most, high, low), Outlook::never);
+  EXPECT_EQ(outlook(Relation::at_most, wide, low), Outlook::maybe);
+  EXPECT_EQ(outlook(Relation::at_most, with_nan, high), Outlook::maybe);
+  EXPECT_EQ(outlook(Relation::above, high, with_nan), Outlook::maybe);
+  EXPECT_EQ(outlook(Relation::below, high, with_nan), Outlook::never);
+  EXPECT_EQ(outlook(Relation::equal, low, high), Outlook::never);
+  EXPECT_EQ(outlook(Relation::equal, Interval::of(2), Interval::of(2 + 1e-12)), Outlook::always);
+  EXPECT_EQ(outlook(Relation::equal, low, Interval::of(2 + 1e-12)), Outlook::maybe);
+  EXPECT_EQ(outlook(Relation::at_most, Interval::none(), wide), Outlook::never);
+}
+
+}  // namespace
+}  // namespace portrait
