@@ -128,8 +128,8 @@ std::vector<bool> CrossSection::eligible(const Question& question) const {
   const std::vector<double> objective = values(question.minimize);
   std::vector<bool> result(numbers_.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const bool status =
-        statuses_[i] == Status::settled || (question.conditions.include_not_settled && statuses_[i] == Status::not_settled);
+    const bool status = statuses_[i] == Status::settled ||
+                        (question.conditions.include_not_settled && statuses_[i] == Status::not_settled);
     result[i] = status && !std::isnan(objective[i]);
   }
   return result;
