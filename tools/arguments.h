@@ -10,7 +10,7 @@
 #include "engine/loop/horizon.h"
 #include "engine/loop/real_plant.h"
 #include "engine/sweep/method.h"
-#include "portraits/query/units.h"
+#include "portraits/query/query_units.h"
 
 namespace portrait::tools {
 

@@ -9,7 +9,7 @@
 #include "engine/base/words.h"
 #include "portraits/query/cross_section.h"
 #include "portraits/query/grid_values.h"
-#include "portraits/query/units.h"
+#include "portraits/query/query_units.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
 #include "tools/pictures/front.h"
@@ -52,7 +52,7 @@ struct Shown {
     require_fits(units(), portrait.grid());
   }
   const Grid& grid() const { return portrait.grid(); }
-  Units units() const { return {plant, {}}; }
+  QueryUnits units() const { return {plant, {}}; }
 
   PortraitReader portrait;
   std::optional<RealPlant> plant;

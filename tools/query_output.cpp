@@ -20,7 +20,7 @@ std::vector<Quantity> named_in(const Constraint& constraint) {
 
 }  // namespace
 
-Json json_found(const Grid& grid, const Units& units, const Found& found) {
+Json json_found(const Grid& grid, const QueryUnits& units, const Found& found) {
   Json json{{"settings", json_settings(loop_of(grid, found))},
             {"objective", json_number(found.objective)},
             {"measures", json_measures(found.measures, grid.measures)},
@@ -37,7 +37,7 @@ Json json_plant(const RealPlant& plant) {
 }
 
 void add_units(Json& json, const Grid& grid, const Conditions& conditions) {
-  const Units& units = conditions.units;
+  const QueryUnits& units = conditions.units;
   json["units"] = units.plant ? "real" : "normalised";
   json["steps"] = {{"w", units.steps.w}, {"d", units.steps.d}};
   if (units.plant) json["plant"] = json_plant(*units.plant);
@@ -70,7 +70,7 @@ std::string setting_text(const Grid& grid, const Found& found) {
   return portrait::setting_text(loop_of(grid, found));
 }
 
-std::string unit_note(const Units& units) {
+std::string unit_note(const QueryUnits& units) {
   const StepSizes& steps = units.steps;
   const bool unit_steps = steps.w == 1 && steps.d == 1;
   return fmt::format("{}{}", units.plant ? "real units" : "normalised",
@@ -80,7 +80,7 @@ std::string unit_note(const Units& units) {
                          : fmt::format(", steps w = {}, d = {}", number_text(steps.w), number_text(steps.d)));
 }
 
-std::string found_text(const Grid& grid, const Units& units, const Found& found) {
+std::string found_text(const Grid& grid, const QueryUnits& units, const Found& found) {
   const Loop loop = loop_of(grid, found);
   std::string text;
   if (units.plant) {

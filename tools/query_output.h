@@ -10,7 +10,7 @@
 namespace portrait::tools {
 
 /// {"settings", "objective", "measures", "status"[, "controller" when there is a plant]}
-Json json_found(const Grid& grid, const Units& units, const Found& found);
+Json json_found(const Grid& grid, const QueryUnits& units, const Found& found);
 
 /// {"family", "K", "Td"[, "T1"]}
 Json json_plant(const RealPlant& plant);
@@ -25,12 +25,12 @@ std::string units_text(const Grid& grid, const Conditions& conditions);
 std::string setting_text(const Grid& grid, const Found& found);
 
 /// The controller for the plant, when there is one, and the table of measures.
-std::string found_text(const Grid& grid, const Units& units, const Found& found);
+std::string found_text(const Grid& grid, const QueryUnits& units, const Found& found);
 
 /// A head and a row for each setting: parameters, objective, status, measures.
 std::string csv_text(const Grid& grid, const std::vector<Found>& rows);
 
 /// "real units, steps w = 2, d = 1" or "normalised"
-std::string unit_note(const Units& units);
+std::string unit_note(const QueryUnits& units);
 
 }  // namespace portrait::tools

@@ -43,7 +43,7 @@ struct Asked {
   const Question& question;
   const Answer& answer;
 
-  const Units& units() const { return question.conditions.units; }
+  const QueryUnits& units() const { return question.conditions.units; }
   const std::string& constraint(std::size_t j) const { return question.conditions.where[j].text(); }
   std::size_t constraints() const { return question.conditions.where.size(); }
 };

@@ -57,7 +57,7 @@ std::size_t axis_index(const Grid& grid, Parameter parameter) {
   return static_cast<std::size_t>(found - grid.axes.begin());
 }
 
-CrossSection::CrossSection(const ColumnSource& source, const Units& units, Parameter x, Parameter y,
+CrossSection::CrossSection(const ColumnSource& source, const QueryUnits& units, Parameter x, Parameter y,
                            std::vector<std::uint64_t> held)
     : source_(source), units_(units), parameters_(source.grid()) {
   const Grid& grid = source.grid();

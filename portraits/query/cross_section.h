@@ -1,7 +1,7 @@
 /// A plane of a portrait: two axes run, all others are held. What pictures and pages show of it.
 ///
 /// shape     values[j * nx + i] belongs to the i-th value of x and the j-th of y
-/// unit      that of the question, as in units.h
+/// unit      that of the question, as in query_units.h
 /// cost      the settings of the plane in the order of their numbers, a run along the last axis at a time
 #pragma once
 
@@ -21,7 +21,7 @@ class CrossSection {
  public:
   /// `held`: an index for every axis of the grid; those of x and y do not matter.
   /// REQUIRES: x and y are two different axes; the source outlives this.
-  CrossSection(const ColumnSource& source, const Units& units, Parameter x, Parameter y,
+  CrossSection(const ColumnSource& source, const QueryUnits& units, Parameter x, Parameter y,
                std::vector<std::uint64_t> held);
 
   std::size_t nx() const { return x_values_.size(); }
@@ -50,7 +50,7 @@ class CrossSection {
   std::vector<bool> eligible(const Question& question) const;
 
   const ColumnSource& source_;
-  Units units_;
+  QueryUnits units_;
   ParameterColumns parameters_;
   std::vector<double> x_values_, y_values_;
   std::vector<std::uint64_t> numbers_;

@@ -82,7 +82,7 @@ void require_answerable(const Conditions& conditions, const Grid& grid) {
   require_fits(conditions.units, grid);
 }
 
-Found found_at(const ColumnSource& source, const Units& units, std::uint64_t number, double objective) {
+Found found_at(const ColumnSource& source, const QueryUnits& units, std::uint64_t number, double objective) {
   Found found{number, setting_at(source.grid(), number), {}, objective, Status::not_computed};
   std::vector<double> value;
   std::vector<Status> status;

@@ -1,7 +1,7 @@
 /// The best settings of a portrait under constraints, exact on the grid.
 ///
 /// A setting is eligible when it is settled (or not_settled, when asked for), and admissible when every constraint holds
-/// and its objective is not NaN. Measures are in the units of the question (units.h), so with a real plant the
+/// and its objective is not NaN. Measures are in the units of the question (query_units.h), so with a real plant the
 /// constraints and the objective are transformed before anything is selected; of a portrait with an axis tau_1 only the
 /// slice tau_1 = T1/Td is asked.
 ///
@@ -20,7 +20,7 @@
 #include "portraits/query/constraint.h"
 #include "portraits/query/explain_pass.h"
 #include "portraits/query/expression.h"
-#include "portraits/query/units.h"
+#include "portraits/query/query_units.h"
 
 namespace portrait {
 
@@ -29,7 +29,7 @@ inline constexpr std::size_t kMaxTop = 100'000;
 /// Which settings are asked about, and in which units.
 struct Conditions {
   std::vector<Constraint> where;
-  Units units;
+  QueryUnits units;
   bool include_not_settled = false;
   int threads = 0;  ///< 0: as many as the machine has
 };
@@ -94,6 +94,6 @@ Answer ask(const ColumnSource& source, const Question& question);
 void require_answerable(const Conditions& conditions, const Grid& grid);
 
 /// Everything the portrait knows of a setting. REQUIRES: number < setting_count.
-Found found_at(const ColumnSource& source, const Units& units, std::uint64_t number, double objective);
+Found found_at(const ColumnSource& source, const QueryUnits& units, std::uint64_t number, double objective);
 
 }  // namespace portrait

@@ -28,7 +28,7 @@ std::vector<Parameter> parameters_behind(ControllerValue value) {
 
 }  // namespace
 
-Sheet::Sheet(const ColumnSource& source, const Units& units, const std::vector<Quantity>& used,
+Sheet::Sheet(const ColumnSource& source, const QueryUnits& units, const std::vector<Quantity>& used,
              bool include_not_settled)
     : source_(source),
       units_(units),

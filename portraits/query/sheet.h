@@ -16,7 +16,7 @@
 #include "portraits/column_source.h"
 #include "portraits/query/constraint.h"
 #include "portraits/query/parameter_columns.h"
-#include "portraits/query/units.h"
+#include "portraits/query/query_units.h"
 #include "portraits/tile_rows.h"
 
 namespace portrait {
@@ -24,12 +24,12 @@ namespace portrait {
 class Sheet {
  public:
   /// `used`: every quantity that will be asked for. REQUIRES: `source` outlives the sheet; the units fit the grid.
-  Sheet(const ColumnSource& source, const Units& units, const std::vector<Quantity>& used,
+  Sheet(const ColumnSource& source, const QueryUnits& units, const std::vector<Quantity>& used,
         bool include_not_settled);
 
   const Grid& grid() const { return source_.grid(); }
   const ColumnSource& source() const { return source_; }
-  const Units& units() const { return units_; }
+  const QueryUnits& units() const { return units_; }
   const TileRows& rows() const { return rows_; }
   const ParameterColumns& parameters() const { return parameters_; }
   const std::vector<Quantity>& used() const { return used_; }
@@ -59,7 +59,7 @@ class Sheet {
   Interval bound_of(ControllerValue value, std::uint64_t tile) const;
 
   const ColumnSource& source_;
-  Units units_;
+  QueryUnits units_;
   bool include_not_settled_;
   std::vector<Quantity> used_;
   TileRows rows_;

@@ -28,7 +28,7 @@ struct Plain {
 };
 
 /// Every measure drawn here grows in proportion to the step.
-double unit_of(Measure measure, const Units& units) {
+double unit_of(Measure measure, const QueryUnits& units) {
   const double step = info(measure).step == 'w' ? units.steps.w : units.steps.d;
   return (units.plant ? scale(measure, *units.plant) : 1) * step;
 }

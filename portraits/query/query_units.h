@@ -24,13 +24,13 @@ struct StepSizes {
   double d = 1;
 };
 
-struct Units {
+struct QueryUnits {
   std::optional<RealPlant> plant;
   StepSizes steps;
 };
 
 /// A measure of the portrait times this is the measure in these units.
-double factor(Measure measure, const Units& units);
+double factor(Measure measure, const QueryUnits& units);
 
 /// One formula for numbers and for intervals: `of(parameter)` gives either.
 template <typename Number, typename Of>
@@ -61,13 +61,13 @@ Number controller_value(ControllerValue value, const RealPlant& plant, Of of) {
 
 /// Throws InputError when a step has no size, when the plant cannot be, is of another family than the portrait's, or has
 /// a T1/Td that the portrait does not hold.
-void require_fits(const Units& units, const Grid& grid);
+void require_fits(const QueryUnits& units, const Grid& grid);
 
 /// The value on the axis tau_1 that is T1/Td within 1e-9; nothing when tau_1 is no axis or there is no plant.
 /// REQUIRES: require_fits.
-std::optional<double> slice_of(const Units& units, const Grid& grid);
+std::optional<double> slice_of(const QueryUnits& units, const Grid& grid);
 
 /// What the numbers of a quantity are: "real: unit of y times time, for a setpoint step of 2", "normalised: Kc K Td".
-std::string unit_text(Quantity quantity, const Units& units, const Grid& grid);
+std::string unit_text(Quantity quantity, const QueryUnits& units, const Grid& grid);
 
 }  // namespace portrait

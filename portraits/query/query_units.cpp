@@ -1,4 +1,4 @@
-#include "portraits/query/units.h"
+#include "portraits/query/query_units.h"
 
 #include <cmath>
 
@@ -94,7 +94,7 @@ std::string step_text(char step, const StepSizes& steps) {
   return fmt::format(", for a step of {} in the {}", number_text(size_of_step(step, steps)), kind);
 }
 
-std::string text_of(Measure measure, const Units& units, const Grid&) {
+std::string text_of(Measure measure, const QueryUnits& units, const Grid&) {
   const MeasureInfo& about = info(measure);
   if (about.unit == Unit::one || about.unit == Unit::degree) return std::string(words(about.unit));
   const bool has_step = power_of_step(about.unit) > 0 && about.step != '-';
@@ -102,11 +102,11 @@ std::string text_of(Measure measure, const Units& units, const Grid&) {
                      has_step ? step_text(about.step, units.steps) : "");
 }
 
-std::string text_of(Parameter parameter, const Units&, const Grid& grid) {
+std::string text_of(Parameter parameter, const QueryUnits&, const Grid& grid) {
   return fmt::format("normalised, {}", normalisation(parameter, grid.family.plant));
 }
 
-std::string text_of(ControllerValue value, const Units&, const Grid&) {
+std::string text_of(ControllerValue value, const QueryUnits&, const Grid&) {
   switch (value) {
     case ControllerValue::Kc:
       return "real, unit of u per unit of y";
@@ -121,13 +121,13 @@ std::string text_of(ControllerValue value, const Units&, const Grid&) {
 
 }  // namespace
 
-double factor(Measure measure, const Units& units) {
+double factor(Measure measure, const QueryUnits& units) {
   const MeasureInfo& about = info(measure);
   const double real = units.plant ? scale(measure, *units.plant) : 1;
   return real * std::pow(size_of_step(about.step, units.steps), power_of_step(about.unit));
 }
 
-void require_fits(const Units& units, const Grid& grid) {
+void require_fits(const QueryUnits& units, const Grid& grid) {
   require_step("w", units.steps.w);
   require_step("d", units.steps.d);
   if (!units.plant) return;
@@ -139,13 +139,13 @@ void require_fits(const Units& units, const Grid& grid) {
   if (plant.family == Plant::fotd) require_tau_1(plant.T1 / plant.Td, grid);
 }
 
-std::optional<double> slice_of(const Units& units, const Grid& grid) {
+std::optional<double> slice_of(const QueryUnits& units, const Grid& grid) {
   const auto values = axis_values(grid, Parameter::tau_1);
   if (!values || !units.plant) return std::nullopt;
   return values->at(index_of_value(*values, units.plant->T1 / units.plant->Td).value());
 }
 
-std::string unit_text(Quantity quantity, const Units& units, const Grid& grid) {
+std::string unit_text(Quantity quantity, const QueryUnits& units, const Grid& grid) {
   return std::visit([&](auto q) { return text_of(q, units, grid); }, quantity);
 }
 
