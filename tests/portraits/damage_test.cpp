@@ -114,8 +114,10 @@ TEST_F(Damage, TruncationIsToldInTheLibrarysWords) {
 /// Somewhere in the values of the measures: they are most of the file, and in its middle.
 TEST_F(Damage, DamagedValuesNameTheDatasetAndTheOthersAreStillChecked) {
   std::string damaged = whole_;
-  const std::size_t middle = whole_.size() / 2;
-  damaged[middle] = static_cast<char>(~damaged[middle]);
+  const double value = sample::value(Measure::Ms, 1);
+  const std::size_t at = whole_.find(std::string(reinterpret_cast<const char*>(&value), sizeof value));
+  ASSERT_NE(at, std::string::npos);
+  damaged[at] = static_cast<char>(~damaged[at]);
   put_bytes(in("damaged.h5"), damaged);
   int broken = 0;
   for (const CheckedDataset& dataset : inspect(in("damaged.h5")).datasets) {
