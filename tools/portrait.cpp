@@ -106,6 +106,7 @@ int run(int argc, char** argv) {
   add_query(app, invocation);
   add_simulate(app, invocation);
   add_plot(app, invocation);
+  add_tune(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

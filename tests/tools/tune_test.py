@@ -1,0 +1,96 @@
+"""portrait tune."""
+
+import json
+import math
+
+import program
+from program import ProgramTest
+
+PLANT = ("--plant", "dipdt")
+
+
+class Tune(ProgramTest):
+    def tune(self, *arguments):
+        result = self.run_program("tune", *arguments, "--json")
+        self.assertEqual((result.code, result.err), (0, ""))
+        return result.json
+
+    def test_qrdp_in_normalised_numbers(self):
+        answer = self.tune("huba2022-qrdp", *PLANT)
+        self.assertAlmostEqual(answer["settings"]["kappa"], 0.1247851303, places=9)
+        self.assertAlmostEqual(answer["measures"]["IAE_w"], 7.918024, places=5)  # Huba2022 (27)
+        self.assertAlmostEqual(answer["measures"]["IAE_d"], 82.7276, places=3)
+        self.assertAlmostEqual(answer["found"]["p_o"], -0.415774556783, places=11)
+        self.assertEqual(answer["status"], "settled")
+
+    def test_real_units_scale_controller_and_measures(self):
+        unit = self.tune("huba2022-qrdp", *PLANT, "--Tf", "0.1")
+        real = self.tune("huba2022-qrdp", *PLANT, "--K", "2", "--Td", "0.5", "--Tf", "0.05")
+        self.assertAlmostEqual(real["controller"]["standard"]["Kc"], unit["controller"]["standard"]["Kc"] / (2 * 0.25), places=12)
+        self.assertAlmostEqual(real["measures"]["IAE_w"], 0.5 * unit["measures"]["IAE_w"], places=9)
+        self.assertAlmostEqual(real["measures"]["IAE_d"], 0.5 * 0.5 * unit["measures"]["IAE_d"], places=9)
+        self.assertAlmostEqual(real["measures"]["Ms"], unit["measures"]["Ms"], places=9)
+
+    def test_the_simulate_line_gives_the_same_measures(self):
+        answer = self.tune("huba2022-mfrp2", *PLANT, "--m", "3", "--Tf", "0.1", "--cancel", "To+mTo")
+        again = self.run_program(*answer["simulate"].split()[1:], "--json").json
+        for name, value in again["measures"].items():
+            if name != "noise_gain":
+                self.assertAlmostEqual(value, answer["measures"][name], places=9, msg=name)
+
+    def test_forms_agree(self):
+        controller = self.tune("isimc-pid", "--plant", "ipdt", "--K", "0.5", "--Td", "2")["controller"]
+        p, s = controller["parallel"], controller["series"]
+        self.assertAlmostEqual(p["Kp"], s["Kc"] * (1 + s["TD"] / s["Ti"]))
+        self.assertAlmostEqual(p["Kd"], s["Kc"] * s["TD"])
+        self.assertEqual(controller["transfer_function"]["numerator"], [p["Kd"], p["Kp"], p["Ki"]])
+
+    def test_a_plant_as_a_transfer_function(self):
+        answer = self.tune("dalen2018-prc", "--plant", "tf:34/13.5,54.25,55,1", "--delta", "1.63")
+        self.assertAlmostEqual(answer["found"]["k"], 0.59685, places=5)
+        self.assertAlmostEqual(answer["found"]["tau"], 0.92310, places=5)
+        same = self.tune("ho-pid", "--plant", "tf:1/1,4,6,4,1", "--m", "2", "--Tf", "0.1")
+        jotd = self.tune("ho-pid", "--plant", "jotd", "--j", "4", "--Tj", "1", "--Td", "0", "--m", "2", "--Tf", "0.1")
+        self.assertAlmostEqual(same["found"]["K_2"], jotd["found"]["K_2"], places=9)
+
+    def test_list(self):
+        text = self.run_program("tune", "--list").out
+        for rule in ("huba2022-qrdp", "dalen2018-pareto", "huba2021-jrm", "ho-pid", "kos2021-pid-fh", "amigo-pid"):
+            self.assertIn(rule, text)
+        one = self.run_program("tune", "ho-pid", "--list", "--json").json
+        self.assertEqual([rule["name"] for rule in one], ["ho-pid"])
+        self.assertIn("KHF", [option["name"] for option in one[0]["options"]])
+        everything = self.run_program("tune", "--list", "--json").json
+        self.assertEqual(len(everything), len(text.splitlines()))
+
+    def test_wrong_input(self):
+        cases = [
+            (("huba2022-qrpd", *PLANT), 'unknown rule "huba2022-qrpd" (did you mean "huba2022-qrdp"?)'),
+            (("astrology", *PLANT), 'unknown rule "astrology": portrait tune --list shows them all'),
+            ((), "which rule? portrait tune --list shows them all"),
+            (("zn-pi",), "--plant is missing: dipdt, ipdt, fotd, jotd or tf:NUM/DEN"),
+            (("zn-pi", "--plant", "fodt"), '--plant: unknown plant "fodt" (did you mean "fotd"?)'),
+            (("zn-pi", "--plant", "fotd"), "--T1 is missing: fotd has one"),
+            (("zn-pi", "--plant", "ipdt", "--T1", "2"), "--T1 has no place here: ipdt has none"),
+            (("zn-pi", "--plant", "ipdt", "--Td", "-1"), "--Td must be finite and not below 0 (it is -1)"),
+            (("zn-pi", "--plant", "ipdt", "--K", "0"), "--K must be finite and not 0 (it is 0)"),
+            (("zn-pi", "--plant", "ipdt", "--m", "2"), "--m has no place here: zn-pi has no options"),
+            (("ho-pid", "--plant", "tf:1,2,3/1,2", "--Tf", "1"), "--plant: more zeros than poles: the plant is improper"),
+            (("ho-pid", "--plant", "tf:1/1,x", "--Tf", "1"), '--plant: "x" is not a number'),
+            (("ho-pid", "--plant", "tf:1", "--Tf", "1"), '--plant: "1" is not of the form tf:NUM/DEN, as tf:34/13.5,54.25,55,1'),
+            (("ho-pid", "--plant", "tf:1,0/1,1", "--Tf", "1"),
+             "--plant: the plant has a zero at s = 0: no controller brings it to a setpoint"),
+            (("ho-pid", "--plant", "tf:1/1,2,1", "--m", "1", "--n", "1", "--Tf", "0"), "--Tf must be above 0 (it is 0)"),
+            (("huba2022-mfrp1", *PLANT, "--m", "two"), '--m: "two" is not a number'),
+            (("huba2022-mfrp1", *PLANT, "--cancel", "all"),
+             '--cancel: unknown "all" (known: none, To, mTo, 2To, 2mTo, To+mTo)'),
+            (("dalen2018-pareto", "--plant", "ipdt", "--Ms", "0.9"),
+             "dalen2018-pareto: Ms is above 1 for every loop (asked for: 0.9)"),
+        ]
+        for arguments, message in cases:
+            with self.subTest(arguments=arguments):
+                self.assert_fails(self.run_program("tune", *arguments), 2, message)
+
+
+if __name__ == "__main__":
+    program.main()
