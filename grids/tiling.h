@@ -13,7 +13,7 @@
 
 namespace portrait {
 
-inline constexpr std::uint64_t kTileSettings = 1024;
+inline constexpr std::uint64_t kTileSettings = 4096;
 
 /// A box of settings: first index and extent along each axis.
 struct Box {

@@ -41,7 +41,7 @@ std::string date_text() {
 }
 
 void write_provenance(const h5::File& file, const Provenance& provenance) {
-  const std::string date = date_text();
+  const std::string date = provenance.date.empty() ? date_text() : provenance.date;
   file.set_text("schema_name", schema::kName);
   file.set_text("schema_version", schema::kVersion);
   file.set_text("program", program_version());

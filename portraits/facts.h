@@ -12,6 +12,7 @@ namespace portrait {
 struct Provenance {
   std::string command_line;  ///< "portrait sweep grid.toml -o file.h5"
   std::string method;        ///< engine and instruction set that compute it
+  std::string date = {};     ///< when it began; empty: now
 };
 
 /// Known when it ends.

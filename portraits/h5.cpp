@@ -50,17 +50,19 @@ Dataset::Dataset(std::shared_ptr<H5::DataSet> dataset, Layout layout, std::share
       dataset_(std::move(dataset)),
       layout_(std::move(layout)) {}
 
-void Dataset::write_chunk(const std::vector<std::uint64_t>& start, ChunkForm form,
-                          std::span<const std::byte> stored) const {
+void Dataset::place_chunk(const std::vector<std::uint64_t>& start, const ChunkPlace& place) const {
   const std::vector<hsize_t> first(start.begin(), start.end());
   guarded(origin(), "write " + name(), [&] {
-    called(H5Dwrite_chunk(dataset_->getId(), H5P_DEFAULT, static_cast<std::uint32_t>(form), first.data(),
-                          stored.size(), stored.data()));
+    const Placement placement(place.address, place.length);
+    const std::byte nothing{};  // HDF5 hands it on to our driver, which does not look at it
+    called(H5Dwrite_chunk(dataset_->getId(), H5P_DEFAULT, static_cast<std::uint32_t>(place.form), first.data(),
+                          place.length, &nothing));
+    if (!placement.was_taken()) fail(origin(), "HDF5 puts a chunk elsewhere than where it lies");
   });
 }
 
 // The length of a chunk and the filters it went through stand in an index that HDF5 does not checksum.
-Dataset::ChunkPlace Dataset::place_of_chunk(const std::vector<std::uint64_t>& start) const {
+ChunkPlace Dataset::place_of_chunk(const std::vector<std::uint64_t>& start) const {
   const std::vector<hsize_t> first(start.begin(), start.end());
   const std::uint64_t plain = Layout{layout_.element, layout_.chunk, {}}.bytes();
   return guarded(origin(), "read " + name(), [&] {
@@ -92,6 +94,14 @@ void Dataset::write_all(const void* from) const {
   guarded(origin(), "write " + name(), [&] { dataset_->write(from, type_of(layout_.element)); });
 }
 
+void Dataset::copy_from(std::uint64_t address) const {
+  std::uint64_t value = 0;
+  const std::size_t size = size_of(layout_.element);
+  const ssize_t got = pread(origin().descriptor, &value, size, static_cast<off_t>(address));
+  if (got != static_cast<ssize_t>(size)) fail(origin(), fmt::format("cannot read {}: {}", name(), std::strerror(errno)));
+  write_all(&value);
+}
+
 void Dataset::read_all(void* into) const {
   guarded(origin(), "read " + name(), [&] {
     if (dataset_->getStorageSize() != layout_.bytes()) fail(origin(), name() + " has another size than its shape");
@@ -114,11 +124,16 @@ void Dataset::attach_scale(std::uint32_t axis, const Dataset& scale, const std::
 File::File(std::shared_ptr<H5::H5File> file, std::shared_ptr<const Origin> origin)
     : Object(file, std::move(origin), ""), file_(std::move(file)) {}
 
-File File::create(const std::filesystem::path& path) {
+File File::create_behind(const std::filesystem::path& path, std::uint64_t end) {
   const auto origin = std::make_shared<Origin>(Origin{path.string(), true, 0, -1, nullptr});
-  return guarded(*origin, "create the file", [&] {
-    auto file = std::make_shared<H5::H5File>(path.string(), H5F_ACC_EXCL, file_creation(), writing());
+  return guarded(*origin, "make an HDF5 file of it", [&] {
+    const Behind behind(end);
+    auto file = std::make_shared<H5::H5File>(path.string(), H5F_ACC_TRUNC, file_creation(), writing());
     origin->fault = fault_of(*file);
+    origin->descriptor = descriptor_of(*file);
+    haddr_t used = 0;
+    called(H5Fget_eoa(file->getId(), &used));
+    if (used <= end) fail(*origin, "HDF5 puts more than its superblock before the chunks");
     return File(std::move(file), origin);
   });
 }

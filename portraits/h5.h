@@ -5,8 +5,8 @@
 /// nothing.
 ///
 /// Reading trusts nothing the file says: sizes are held against the size of the file before memory is asked
-/// for, and a chunk's length and filters are checked; HDF5 1.10 does not do it. Chunks are encoded and decoded
-/// outside (portraits/chunk_codec.h): HDF5 only finds their place.
+/// for, and a chunk's length and filters are checked; HDF5 1.10 does not do it. Chunks are encoded, written, read and
+/// decoded outside (portraits/chunk_codec.h, portraits/data_file.h): HDF5 only keeps their places.
 ///
 /// The parts behind this door: h5_call (errors), h5_driver (writing), h5_layout (types and shapes), h5_attributes.
 ///
@@ -53,7 +53,7 @@ struct Origin {
   std::string file;
   bool writing = false;
   std::uint64_t bytes = 0;            ///< size of a file being read: nothing in it can be larger
-  int descriptor = -1;                ///< of a file being read
+  int descriptor = -1;
   std::shared_ptr<WriteFault> fault;  ///< of a file being written
 };
 
@@ -84,19 +84,28 @@ class Object {
   std::string name_;
 };
 
+/// Where a chunk lies in its file, filters applied; one at the far edge is whole.
+struct ChunkPlace {
+  std::uint64_t address = 0, length = 0;
+  ChunkForm form = ChunkForm::plain;
+  friend bool operator==(const ChunkPlace&, const ChunkPlace&) = default;
+};
+
 class Dataset : public Object {
  public:
   const Layout& layout() const { return layout_; }
 
-  /// A chunk as it lies in the file, filters applied; one at the far edge is whole. HDF5 passes the bytes on as
-  /// they are.
+  /// Notes where a chunk lies; its bytes are there already. And asks for it.
   /// REQUIRES: a chunked dataset, and the start of a chunk in it.
-  void write_chunk(const std::vector<std::uint64_t>& start, ChunkForm form,
-                   std::span<const std::byte> stored) const;
+  void place_chunk(const std::vector<std::uint64_t>& start, const ChunkPlace& place) const;
+  ChunkPlace place_of_chunk(const std::vector<std::uint64_t>& start) const;
+  /// Its bytes.
   ChunkForm read_chunk(const std::vector<std::uint64_t>& start, std::vector<std::byte>& stored) const;
   /// All values of a contiguous dataset. REQUIRES: room for layout().count() values, which a reader has
   /// checked.
   void write_all(const void* from) const;
+  /// The same from bytes that lie elsewhere in the file being written. REQUIRES: a single value.
+  void copy_from(std::uint64_t address) const;
   void read_all(void* into) const;
 
   /// Makes this the scale of a dimension of that name; others attach it to their axes.
@@ -107,11 +116,6 @@ class Dataset : public Object {
   friend class File;
   Dataset(std::shared_ptr<H5::DataSet> dataset, Layout layout, std::shared_ptr<const Origin> origin,
           std::string name);
-  struct ChunkPlace {
-    std::uint64_t address = 0, length = 0;
-    ChunkForm form = ChunkForm::plain;
-  };
-  ChunkPlace place_of_chunk(const std::vector<std::uint64_t>& start) const;
   std::shared_ptr<H5::DataSet> dataset_;
   Layout layout_;
 };
@@ -119,8 +123,10 @@ class Dataset : public Object {
 /// An HDF5 file and its root group.
 class File : public Object {
  public:
-  /// A new file that any HDF5 since 1.8 can read; it must not exist yet.
-  static File create(const std::filesystem::path& path);
+  /// Makes an existing file an HDF5 file that any HDF5 since 1.8 can read, and keeps its bytes: the superblock goes
+  /// to the start, everything else behind `end`.
+  /// REQUIRES: the file has `end` bytes; the first 512 are free.
+  static File create_behind(const std::filesystem::path& path, std::uint64_t end);
   /// An existing one, for reading only.
   static File open(const std::filesystem::path& path);
 

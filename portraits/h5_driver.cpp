@@ -3,8 +3,6 @@
 #include <map>
 #include <mutex>
 
-#include <fcntl.h>
-
 #include "portraits/h5_call.h"
 
 namespace portrait::h5 {
@@ -34,6 +32,10 @@ Faults& faults() {
   return all;
 }
 
+thread_local const Behind* behind = nullptr;
+thread_local Placement* placement = nullptr;
+thread_local ReadLocator* locator = nullptr;
+
 /// The functions of HDF5's driver for plain files. It gives them away only with an open file.
 const H5FD_class_t& plain_driver() {
   static const H5FD_class_t driver = [] {
@@ -61,22 +63,43 @@ herr_t remembered(WriteFault& fault, herr_t result) {
   return 0;
 }
 
-/// Only a hint, so what it says is of no interest: what it cannot start, the sync at the end does, and tells of.
-void set_off(WriteFault& fault, std::size_t written, int descriptor) {
-  constexpr std::uint64_t kEnough = 16 << 20;
-  fault.waiting += written;
-  if (fault.waiting < kEnough) return;
-  fault.waiting = 0;
-  static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
+/// What is in the file stays: HDF5 would empty it.
+H5FD_t* open_as_it_is(const char* name, unsigned, hid_t list, haddr_t largest) {
+  return plain_driver().open(name, H5F_ACC_RDWR, list, largest);
+}
+
+/// HDF5 makes a file only of an empty one.
+haddr_t end_as_told(const H5FD_t* file, H5FD_mem_t type) {
+  return behind != nullptr ? 0 : plain_driver().get_eof(file, type);
+}
+
+/// Space at the end of the file, behind the bytes that HDF5 is not to touch.
+haddr_t space_for(H5FD_t* file, H5FD_mem_t type, hid_t, hsize_t size) {
+  if (placement != nullptr && type == H5FD_MEM_DRAW && placement->is_of(size)) {
+    placement->take();
+    return placement->address();
+  }
+  const haddr_t end = plain_driver().get_eoa(file, type);
+  const haddr_t at = type != H5FD_MEM_SUPER && behind != nullptr && end < behind->end() ? behind->end() : end;
+  plain_driver().set_eoa(file, type, at + size);
+  return at;
+}
+
+/// HDF5 asks for every piece of space by itself, from `space_for`, instead of cutting it from larger ones.
+herr_t abilities(const H5FD_t* file, unsigned long* flags) {
+  const herr_t result = plain_driver().query(file, flags);
+  if (flags != nullptr) *flags &= ~static_cast<unsigned long>(H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_AGGREGATE_SMALLDATA);
+  return result;
 }
 
 herr_t write(H5FD_t* file, H5FD_mem_t type, hid_t list, haddr_t at, std::size_t size, const void* from) {
-  const void* key = key_of(file);
-  const std::shared_ptr<WriteFault> fault = faults().at(key);
+  if (placement != nullptr && type == H5FD_MEM_DRAW && at == placement->address() && placement->is_of(size)) {
+    placement->take();
+    return 0;
+  }
+  const std::shared_ptr<WriteFault> fault = faults().at(key_of(file));
   if (fault->dropping) return 0;
-  const herr_t result = remembered(*fault, plain_driver().write(file, type, list, at, size, from));
-  set_off(*fault, size, *static_cast<const int*>(key));
-  return result;
+  return remembered(*fault, plain_driver().write(file, type, list, at, size, from));
 }
 
 herr_t truncate(H5FD_t* file, hid_t list, hbool_t closing) {
@@ -90,8 +113,6 @@ herr_t close(H5FD_t* file) {
   faults().forget(key);
   return remembered(*fault, plain_driver().close(file));
 }
-
-thread_local ReadLocator* locator = nullptr;
 
 herr_t read(H5FD_t* file, H5FD_mem_t type, hid_t list, haddr_t at, std::size_t size, void* into) {
   if (type != H5FD_MEM_DRAW || locator == nullptr) return plain_driver().read(file, type, list, at, size, into);
@@ -111,6 +132,10 @@ hid_t registered() {
   H5FD_class_t driver = plain_driver();
   driver.name = "portrait";
   driver.terminate = nullptr;
+  driver.open = open_as_it_is;
+  driver.query = abilities;
+  driver.alloc = space_for;
+  driver.get_eof = end_as_told;
   driver.write = write;
   driver.truncate = truncate;
   driver.close = close;
@@ -128,6 +153,16 @@ void locate_reads(const H5::FileAccPropList& list) {
   static const hid_t driver = registered_to_read();
   called(H5Pset_driver(list.getId(), driver, nullptr));
 }
+
+Behind::Behind(std::uint64_t end) : end_(end) { behind = this; }
+
+Behind::~Behind() { behind = nullptr; }
+
+Placement::Placement(std::uint64_t address, std::uint64_t length) : address_(address), length_(length) {
+  placement = this;
+}
+
+Placement::~Placement() { placement = nullptr; }
 
 ReadLocator::ReadLocator() { locator = this; }
 

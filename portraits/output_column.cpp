@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -67,14 +68,13 @@ OutputColumn OutputColumn::of_status(const h5::File& file, const Grid& grid) {
   return OutputColumn(dataset);
 }
 
-void OutputColumn::write(const std::vector<std::uint64_t>& start, const EncodedColumn& column) {
+void OutputColumn::enter(const std::vector<std::uint64_t>& start, const ChunkRecord& chunk, std::uint64_t address) {
   if (dataset_.layout().chunk.empty())
-    dataset_.write_all(column.values().data());
+    dataset_.copy_from(address);
   else
-    dataset_.write_chunk(start, column.form(), column.stored());
-  whole_.add(column.values());
-  digests_.push_back(column.digest());
-  summaries_.insert(summaries_.end(), column.summary().begin(), column.summary().end());
+    dataset_.place_chunk(start, {address, chunk.length, chunk.form});
+  digests_.push_back(chunk.digest);
+  summaries_.insert(summaries_.end(), chunk.summary.begin(), chunk.summary.end());
 }
 
 OutputColumn::TileScales OutputColumn::create_tile_scales(const h5::File& file, std::uint64_t tiles) {
@@ -90,7 +90,7 @@ OutputColumn::TileScales OutputColumn::create_tile_scales(const h5::File& file, 
 }
 
 void OutputColumn::finish(const h5::File& file, const TileScales& scales) const {
-  dataset_.set_text(schema::kDigest, digest_text(whole_.value()));
+  dataset_.set_text(schema::kDigest, digest_text(digest_of(std::as_bytes(std::span(digests_)))));
   const h5::Dataset digests =
       file.create_dataset(schema::tile_digests_of(dataset_.name()), schema::tile_digest_layout(digests_.size()));
   write_plain(digests, digests_);

@@ -6,7 +6,7 @@
 
 #include "grids/grid.h"
 #include "portraits/digest.h"
-#include "portraits/encoded_tile.h"
+#include "portraits/tile_record.h"
 #include "portraits/h5.h"
 
 namespace portrait {
@@ -16,8 +16,9 @@ class OutputColumn {
   static OutputColumn of_measure(const h5::File& file, const Grid& grid, Measure measure);
   static OutputColumn of_status(const h5::File& file, const Grid& grid);
 
-  /// The next tile. `start` is its first index along each axis. REQUIRES: tiles in the order of their numbers.
-  void write(const std::vector<std::uint64_t>& start, const EncodedColumn& column);
+  /// Enters the next tile, whose bytes are in the file. `start` is its first index along each axis.
+  /// REQUIRES: tiles in the order of their numbers.
+  void enter(const std::vector<std::uint64_t>& start, const ChunkRecord& chunk, std::uint64_t address);
 
   /// What the datasets about tiles, made here, have as their dimensions.
   struct TileScales {
@@ -37,7 +38,6 @@ class OutputColumn {
   explicit OutputColumn(h5::Dataset dataset) : dataset_(std::move(dataset)) {}
 
   h5::Dataset dataset_;
-  Digest whole_;                        ///< of all values so far, row-major
   std::vector<std::uint64_t> digests_;  ///< of each tile so far
   std::vector<double> summaries_;       ///< of each tile so far, one after the other
 };

@@ -33,13 +33,15 @@ void check_summary(const h5::Dataset& dataset, std::span<const std::byte> values
                                      schema::tile_summaries_of(dataset.name()), tile));
 }
 
+/// Of every tile, then of the tiles' digests.
 void check_values(StoredColumn& column, const TileRows& rows, const std::string& digest,
                   const std::vector<double>& summaries) {
   Digest whole;
   const std::size_t numbers = summaries.size() / rows.tile_count();
   for (std::uint64_t tile = 0; tile < rows.tile_count(); ++tile) {
     const auto values = column.tile(tile);
-    whole.add(values);
+    const std::uint64_t of_tile = column.digest(tile);
+    whole.add(std::as_bytes(std::span(&of_tile, 1)));
     if (numbers > 0)
       check_summary(column.dataset(), values, std::span(summaries).subspan(tile * numbers, numbers), tile);
   }

@@ -9,26 +9,31 @@
 /// quiet NaN, every measure in the grid's precision. A writer that is not published leaves nothing behind.
 ///
 /// errors    InputError: the file exists, or its directory does not. StoreError: disk or HDF5
-/// cost      memory: 8 bytes per tile and column. Time: bench/store_rate.cpp
+/// cost      memory: a record per tile, and blocks (portraits/data_file.h). Time: bench/store_rate.cpp
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "engine/measures/columns.h"
 #include "grids/grid.h"
+#include "portraits/data_file.h"
 #include "portraits/encoded_tile.h"
 #include "portraits/facts.h"
 #include "portraits/temporary_file.h"
+#include "portraits/tile_record.h"
 
 namespace portrait {
+
+/// Puts the chunks of a tile down and says where they lie.
+TileRecord append_tile(DataFile& file, const EncodedTile& tile);
 
 class PortraitWriter {
  public:
   PortraitWriter(const std::filesystem::path& path, const Grid& grid, const Provenance& provenance,
                  Existing existing = Existing::refuse);
-  ~PortraitWriter();
 
   /// Any number of threads may encode while another writes. REQUIRES: a tile of Tiling(grid); the grid's measures,
   /// as many settings as the tile has.
@@ -36,20 +41,23 @@ class PortraitWriter {
   /// REQUIRES: the next tile of all.
   void write(const EncodedTile& tile);
 
-  std::uint64_t tiles_left() const;
+  std::uint64_t tiles_left() const { return rows_.tile_count() - tiles_.size(); }
 
   /// Where the file grows until it is published.
   const std::filesystem::path& temporary_path() const { return temporary_.path(); }
 
-  /// Adds digests and facts, closes the file, checks all of it as a reader sees it, and gives it its name.
+  /// Makes an HDF5 file of what was written, checks it as a reader sees it, and gives it its name.
   /// REQUIRES: no tile is left; called once.
   void publish(const RunFacts& facts);
 
  private:
-  class File;
   TemporaryFile temporary_;  ///< outlives the open file
   Existing existing_;
-  std::unique_ptr<File> file_;
+  Grid grid_;
+  TileRows rows_;
+  Provenance provenance_;
+  std::unique_ptr<DataFile> data_;
+  std::vector<TileRecord> tiles_;
 };
 
 }  // namespace portrait

@@ -44,7 +44,7 @@ class TileQueue {
  public:
   using SettingsOf = std::function<std::vector<Setting>(std::uint64_t tile)>;
   using Prepare = std::function<StoreStep(std::uint64_t tile, const MeasureColumns& columns)>;
-  static constexpr std::uint64_t kTilesInMemory = 64;
+  static constexpr std::uint64_t kTilesInMemory = 16;
   static constexpr std::size_t kSliceSettings = 128;
 
   TileQueue(std::vector<Measure> measures, std::uint64_t tile_count, SettingsOf settings_of, Prepare prepare)
