@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "engine/base/check.h"
 #include "engine/base/error.h"
+#include "portraits/disk.h"
 
 namespace portrait {
 namespace {
@@ -40,7 +40,7 @@ DataFile::DataFile(const std::filesystem::path& path, int flags, std::uint64_t e
     descriptor_ = open(path.c_str(), O_RDWR | O_CLOEXEC | (flags & ~O_EXCL), kMode);
   }
   if (descriptor_ < 0) failed("open the file to write to it");
-  if (ftruncate(descriptor_, static_cast<off_t>(end)) != 0) {
+  if (!disk::may("truncate") || ftruncate(descriptor_, static_cast<off_t>(end)) != 0) {
     const int reason = errno;
     close(descriptor_);
     errno = reason;
@@ -70,9 +70,7 @@ DataFile::Memory DataFile::new_block() {
   return Memory(static_cast<std::byte*>(memory));
 }
 
-void DataFile::failed(const char* doing) const {
-  throw StoreError(fmt::format("{}: cannot {}: {}", path_.string(), doing, std::strerror(errno)));
-}
+void DataFile::failed(const char* doing) const { disk::failed(path_, doing); }
 
 // ---------------------------------------------------------------- whoever appends
 
@@ -100,7 +98,7 @@ std::uint64_t DataFile::commit() {
     changed_.wait(lock, [&] { return unwritten_ == 0 || failure_; });
     rethrow_failure();
   }
-  if (fdatasync(descriptor_) != 0) failed("sync it");
+  if (!disk::may("sync") || fdatasync(descriptor_) != 0) failed("sync it");
   return end_;
 }
 
@@ -162,8 +160,9 @@ void DataFile::put_down(const Block& block) {
 
 void DataFile::write(const Block& block) {
   for (std::size_t done = 0; done < block.size;) {
-    const ssize_t count = pwrite(descriptor_, block.bytes.get() + done, block.size - done,
-                                 static_cast<off_t>(block.at + done));
+    const ssize_t count = disk::may("write") ? pwrite(descriptor_, block.bytes.get() + done, block.size - done,
+                                                      static_cast<off_t>(block.at + done))
+                                             : -1;
     if (count > 0)
       done += static_cast<std::size_t>(count);
     else if (count < 0 && errno == EINVAL && direct_)

@@ -67,6 +67,10 @@ EncodedTile encode_tile(const Grid& grid, const TileRows& rows, std::uint64_t ti
     encoded.measures.push_back(grid.precision == Precision::real64 ? encode_as<double>(values, whole)
                                                                    : encode_as<float>(values, whole));
   }
+  Digest stored;
+  for (const EncodedColumn& column : encoded.measures) stored.add(column.stored());
+  stored.add(encoded.status.stored());
+  encoded.stored_digest = stored.value();
   return encoded;
 }
 

@@ -46,6 +46,7 @@ struct EncodedTile {
   std::uint64_t number = 0;
   std::vector<EncodedColumn> measures;  ///< those of the grid
   EncodedColumn status;
+  std::uint64_t stored_digest = 0;  ///< of all chunks one after the other, as they are stored
 };
 
 /// REQUIRES: a tile of the grid, with the grid's measures and the tile's settings.

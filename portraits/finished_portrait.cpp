@@ -94,7 +94,8 @@ void check_column(const h5::File& file, const std::string& name, h5::Element ele
   std::vector<double> summaries;
   for (const TileRecord& tile : tiles)
     summaries.insert(summaries.end(), tile.chunks[k].summary.begin(), tile.chunks[k].summary.end());
-  if (column.summaries() != summaries) throw IntegrityError(name + " has other summaries of its tiles");
+  const std::size_t numbers = tiles.front().chunks[k].summary.size();
+  if (StoredColumn::summaries(file, name, numbers, rows) != summaries) throw IntegrityError(name + " has other summaries of its tiles");
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const ChunkRecord& chunk = tiles[i].chunks[k];
     if (column.digest(i) != chunk.digest) throw IntegrityError(name + " has another digest of a tile");

@@ -1,8 +1,13 @@
 #include "portraits/h5_driver.h"
 
+#include <cerrno>
+#include <cstring>
 #include <map>
 #include <mutex>
+#include <string>
+#include <utility>
 
+#include "portraits/disk.h"
 #include "portraits/h5_call.h"
 
 namespace portrait::h5 {
@@ -55,10 +60,15 @@ const void* key_of(H5FD_t* file) {
 }
 
 /// What HDF5 is told after something it asked for was tried: that it succeeded.
+herr_t remembered(WriteFault& fault, std::string words) {
+  fault.dropping = true;
+  fault.words = std::move(words);
+  return 0;
+}
+
 herr_t remembered(WriteFault& fault, herr_t result) {
   if (result >= 0) return 0;
-  fault.dropping = true;
-  fault.words = words_on(H5E_DEFAULT);
+  remembered(fault, words_on(H5E_DEFAULT));
   H5Eclear2(H5E_DEFAULT);
   return 0;
 }
@@ -99,6 +109,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t type, hid_t list, haddr_t at, std::size_t 
   }
   const std::shared_ptr<WriteFault> fault = faults().at(key_of(file));
   if (fault->dropping) return 0;
+  if (!disk::may("write")) return remembered(*fault, std::strerror(errno));
   return remembered(*fault, plain_driver().write(file, type, list, at, size, from));
 }
 
@@ -120,11 +131,18 @@ herr_t read(H5FD_t* file, H5FD_mem_t type, hid_t list, haddr_t at, std::size_t s
   return 0;
 }
 
+/// A file that was only read loses nothing when closing fails; HDF5 would not survive it.
+herr_t close_read(H5FD_t* file) {
+  if (plain_driver().close(file) < 0) H5Eclear2(H5E_DEFAULT);
+  return 0;
+}
+
 hid_t registered_to_read() {
   H5FD_class_t driver = plain_driver();
   driver.name = "portrait_reading";
   driver.terminate = nullptr;
   driver.read = read;
+  driver.close = close_read;
   return called(H5FDregister(&driver));
 }
 

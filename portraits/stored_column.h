@@ -37,7 +37,7 @@ class StoredColumn {
                                        const TileRows& rows);
 
   const h5::Dataset& dataset() const { return dataset_; }
-  std::uint64_t digest(std::uint64_t number) const { return digests_[number]; }  ///< of a tile, as the file says
+  std::uint64_t digest(std::uint64_t number) const { return (*digests_)[number]; }  ///< of a tile, as the file says
 
  private:
   void read(std::uint64_t number);

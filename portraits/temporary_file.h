@@ -15,6 +15,10 @@ enum class Existing { refuse, replace };  ///< what to do with a file of the tar
 /// not.
 void check_target(const std::filesystem::path& target, Existing existing);
 
+/// Syncs the file, renames it to its name, syncs the directory. Throws InputError when the target exists and is to be
+/// refused, however late it came.
+void give_name(const std::filesystem::path& path, const std::filesystem::path& target, Existing existing);
+
 class TemporaryFile {
  public:
   /// Chooses the name; creating the file is the caller's.

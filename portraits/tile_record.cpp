@@ -10,7 +10,7 @@ ChunkRecord record_of(const EncodedColumn& column) {
 }  // namespace
 
 TileRecord record_of(const EncodedTile& tile, std::uint64_t address) {
-  TileRecord record{tile.number, address, {}};
+  TileRecord record{tile.number, address, tile.stored_digest, {}};
   record.chunks.reserve(tile.measures.size() + 1);
   for (const EncodedColumn& column : tile.measures) record.chunks.push_back(record_of(column));
   record.chunks.push_back(record_of(tile.status));

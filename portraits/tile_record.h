@@ -22,7 +22,8 @@ struct ChunkRecord {
 /// Chunks follow each other without gaps: measures in the grid's order, then the status.
 struct TileRecord {
   std::uint64_t number = 0;
-  std::uint64_t address = 0;  ///< of the first chunk
+  std::uint64_t address = 0;        ///< of the first chunk
+  std::uint64_t stored_digest = 0;  ///< of all chunks as they lie in the file
   std::vector<ChunkRecord> chunks;
   friend bool operator==(const TileRecord&, const TileRecord&) = default;
 };

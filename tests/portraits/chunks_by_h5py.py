@@ -12,7 +12,7 @@ import h5py
 import numpy
 import xarray
 
-TILE = 1000  # as 4999 settings are cut
+TILE = 4000  # as 19996 settings are cut
 DEFLATED, PLAIN = 0b000, 0b011
 
 
@@ -27,7 +27,7 @@ def repeating(measure, count):
     setting = numpy.arange(count)
     tile, place = setting // TILE, setting % TILE
     values = value(measure, 7 * setting)
-    values[(tile % 4 == 2) & (place < 600)] = 0.5
+    values[(tile % 4 == 2) & (place < 2400)] = 0.5
     values[tile % 4 == 1] = measure
     values[tile % 4 == 0] = numpy.nan
     return values
@@ -77,8 +77,8 @@ def main():
         path = os.path.join(folder, "p.h5")
         for verb, dtype in {"repeat": "f8", "single": "f4"}.items():
             # Tiles of all NaN, constant, half constant, neither; then again, the last one cut short at the edge.
-            subprocess.run([program, verb, "4999", path], check=True)
-            check(path, (4999,), numpy.dtype(dtype), [DEFLATED, DEFLATED, DEFLATED, PLAIN, DEFLATED])
+            subprocess.run([program, verb, "19996", path], check=True)
+            check(path, (19996,), numpy.dtype(dtype), [DEFLATED, DEFLATED, DEFLATED, PLAIN, DEFLATED])
             check_filters_can_tell(path)
             os.remove(path)
 

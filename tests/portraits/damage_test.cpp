@@ -135,7 +135,7 @@ TEST_F(Damage, DamagedValuesNameTheDatasetAndTheOthersAreStillChecked) {
 class DamageOfChunks : public Damage {
  protected:
   void write_sample() override {
-    grid_ = sample::grid_of({4, 1000});
+    grid_ = sample::grid_of({4, 4000});
     sample::write(in("whole.h5"), grid_, Existing::refuse, sample::repeating_columns);
   }
 

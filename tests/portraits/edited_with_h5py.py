@@ -144,11 +144,11 @@ def replace(file, name, values, digest=None):
 
 
 def newer_major(file):
-    file.attrs["schema_version"] = "2.0.0"
+    file.attrs["schema_version"] = "3.0.0"
 
 
 def newer_minor(file):
-    file.attrs["schema_version"] = "1.7.0"
+    file.attrs["schema_version"] = "2.7.0"
     file.attrs["something_new"] = 1.0
     file["new_column"] = numpy.zeros(3)
 
@@ -183,7 +183,7 @@ CASES = [
     (integers_for_reals, 4, ["Ms has values of an unknown type"]),
     (other_shape, 4, ["Ms has another type or shape than the grid asks for"]),
     (enormous_axis, 4, ["kappa is larger than the file"]),
-    (newer_major, 2, ["this portrait has format 2.0.0; this program reads format 1.x: use a newer program"]),
+    (newer_major, 2, ["this portrait has format 3.0.0; this program reads format 2.x: use a newer program"]),
     (newer_minor, 0, []),
 ]
 

@@ -41,7 +41,7 @@ class EncodeThreads : public ScratchTest {
 
 TEST_F(EncodeThreads, TheSameBytesForAnyNumber) {
   for (const Precision precision : {Precision::real64, Precision::real32}) {
-    const Grid grid = sample::grid_of({40, 700}, precision);
+    const Grid grid = sample::grid_of({40, 1400}, precision);
     const std::string alone = bytes_with(1, grid);
     for (const int threads : {2, 5}) EXPECT_EQ(bytes_with(threads, grid), alone) << threads;
   }

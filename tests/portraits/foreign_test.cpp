@@ -16,8 +16,13 @@ class Foreign : public ScratchTest {
   }
   std::string named(const std::string& sentence) const { return in("p.h5").string() + ": " + sentence; }
 
+  h5::File new_hdf5() const {
+    put_bytes(in("p.h5"), "");
+    return h5::File::create_behind(in("p.h5"), 512);
+  }
+
   void write_hdf5(const std::string& schema_name, const std::string& schema_version) const {
-    h5::File file = h5::File::create(in("p.h5"));
+    h5::File file = new_hdf5();
     file.set_text("schema_name", schema_name);
     file.set_text("schema_version", schema_version);
     file.close();
@@ -45,25 +50,25 @@ TEST_F(Foreign, OtherHdf5) {
 }
 
 TEST_F(Foreign, Hdf5WithoutAttributes) {
-  h5::File::create(in("p.h5")).close();
+  new_hdf5().close();
   EXPECT_EQ(refusal(),
             named("this is an HDF5 file, but no portrait: its attribute schema_name does not say \"portrait\""));
 }
 
 TEST_F(Foreign, NewerFormat) {
-  write_hdf5("portrait", "2.1.0");
-  const std::string sentence = "this portrait has format 2.1.0; this program reads format 1.x: use a newer program";
+  write_hdf5("portrait", "3.1.0");
+  const std::string sentence = "this portrait has format 3.1.0; this program reads format 2.x: use a newer program";
   EXPECT_EQ(refusal(), named(sentence));
   EXPECT_EQ(message_of<InputError>([&] { verify(in("p.h5")); }), named(sentence));
 }
 
 TEST_F(Foreign, FormatThatIsNoVersion) {
   write_hdf5("portrait", "new");
-  EXPECT_EQ(refusal(), named("this portrait has format new; this program reads format 1.x"));
+  EXPECT_EQ(refusal(), named("this portrait has format new; this program reads format 2.x"));
 }
 
 TEST_F(Foreign, PortraitWithoutItsAttributesIsBroken) {
-  write_hdf5("portrait", "1.0.0");
+  write_hdf5("portrait", "2.0.0");
   EXPECT_EQ(message_of<IntegrityError>([&] { PortraitReader portrait(in("p.h5")); }),
             named("attribute title is missing"));
 }

@@ -73,10 +73,10 @@ Status status(std::uint64_t setting) {
 }
 
 double repeating_value(Measure measure, std::uint64_t setting) {
-  const std::uint64_t kind = setting / 1000 % 4, place = setting % 1000;
+  const std::uint64_t kind = setting / 4000 % 4, place = setting % 4000;
   if (kind == 0) return kNaN;
   if (kind == 1) return static_cast<double>(number_of(measure) - 1);
-  return kind == 2 && place < 600 ? 0.5 : value(measure, 7 * setting);
+  return kind == 2 && place < 2400 ? 0.5 : value(measure, 7 * setting);
 }
 
 namespace {

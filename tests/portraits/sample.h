@@ -22,8 +22,7 @@ Grid grid_of(const std::vector<std::uint64_t>& sizes, Precision precision = Prec
 double value(Measure measure, std::uint64_t setting);
 Status status(std::uint64_t setting);
 
-/// One that repeats: a thousand settings NaN, a thousand constant, a thousand mostly constant, a thousand
-/// different.
+/// One that repeats: four thousand settings NaN, as many constant, as many mostly constant, as many different.
 double repeating_value(Measure measure, std::uint64_t setting);
 
 /// What a sweep would give for a tile.

@@ -64,7 +64,7 @@ class TileSummaryFile : public ScratchTest {};
 
 TEST_F(TileSummaryFile, knows_the_ranges_of_what_it_stores) {
   for (const Precision precision : {Precision::real64, Precision::real32}) {
-    const Grid grid = sample::grid_of({5, 7, 11, 13}, precision);
+    const Grid grid = sample::grid_of({9, 7, 11, 13}, precision);
     sample::write(in("sample.h5"), grid, Existing::replace);
     const PortraitReader portrait(in("sample.h5"));
     const TileRows rows(grid);

@@ -5,7 +5,7 @@ import shutil
 import sys
 import tempfile
 
-SIZES = "5,4,300"  # of the portrait that is written
+SIZES = "5,4,900"  # of the portrait that is written
 
 
 def run(check):
