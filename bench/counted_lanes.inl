@@ -90,9 +90,11 @@ inline Lanes select(Mask m, Lanes a, Lanes b) {
 inline Mask operator&(Mask a, Mask b) { return {a.m & b.m}; }
 inline Mask operator|(Mask a, Mask b) { return {a.m | b.m}; }
 inline Mask but_not(Mask a, Mask b) { return {a.m & ~b.m}; }
+inline Mask select(Mask m, Mask a, Mask b) { return (m & a) | but_not(b, m); }
 inline unsigned bits(Mask m) { return m.m; }
 inline bool any(Mask m) { return m.m != 0; }
 
-inline Mask operator!(Mask m) { return but_not(Mask::from((1u << kLanes) - 1), m); }
+inline Mask all_lanes() { return Mask::from((1u << kLanes) - 1); }
+inline Mask operator!(Mask m) { return but_not(all_lanes(), m); }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

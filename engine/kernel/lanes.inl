@@ -125,8 +125,10 @@ inline Mask operator&(Mask a, Mask b) { return {both(a.m, b.m)}; }
 inline Mask operator|(Mask a, Mask b) { return {either(a.m, b.m)}; }
 /// a and not b
 inline Mask but_not(Mask a, Mask b) { return {except(a.m, b.m)}; }
+inline Mask select(Mask m, Mask a, Mask b) { return (m & a) | but_not(b, m); }
 inline unsigned bits(Mask m) { return bits(m.m); }
 inline bool any(Mask m) { return bits(m) != 0; }
-inline Mask operator!(Mask m) { return but_not(Mask::from((1u << kLanes) - 1), m); }
+inline Mask all_lanes() { return Mask::from((1u << kLanes) - 1); }
+inline Mask operator!(Mask m) { return but_not(all_lanes(), m); }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

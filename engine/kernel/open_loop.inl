@@ -1,185 +1,143 @@
 /// The open loop on the imaginary axis, a lane each.
 ///
 ///     L(jw) = N(jw) e^{-jw} / ((jw)^k (1 + j tau_1 w)^m (1 + j tau_f w)^n)        N = n0 + n1 s + n2 s^2, see open_loop.h
+///
+/// m is 0 or 1. All reciprocals that an evaluation needs come out of one division.
 #pragma once
 
 #include "engine/kernel/angles.inl"
+#include "engine/kernel/complex.inl"
 #include "engine/kernel/pack.h"
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
-struct Complex {
-  Lanes re, im;
-};
-inline Complex operator+(Complex a, Complex b) { return {a.re + b.re, a.im + b.im}; }
-inline Complex operator-(Complex a) { return {-a.re, -a.im}; }
-inline Complex operator*(Complex a, Complex b) {
-  return {mul_sub_from(a.im, b.im, a.re * b.re), mul_add(a.re, b.im, a.im * b.re)};
+inline Lanes power(Lanes x, int n) {
+  Lanes p = 1.0;
+  for (int i = 0; i < n; ++i) p = p * x;
+  return p;
 }
-inline Complex operator*(Lanes a, Complex b) { return {a * b.re, a * b.im}; }
-inline Lanes norm(Complex a) { return mul_add(a.re, a.re, a.im * a.im); }
-/// Re(conj(a) b)
-inline Lanes inner(Complex a, Complex b) { return mul_add(a.re, b.re, a.im * b.im); }
-inline Complex inverse(Complex a) {
-  const Lanes scale = Lanes(1.0) / norm(a);
-  return {a.re * scale, -(a.im * scale)};
-}
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 class OpenLoopLanes {
  public:
   explicit OpenLoopLanes(const kernel::MarginPack& pack)
-      : n0_(Lanes::from(pack.n0)),
-        n1_(Lanes::from(pack.n1)),
-        n2_(Lanes::from(pack.n2)),
-        tau_1_(Lanes::from(pack.tau_1)),
-        tau_f_(Lanes::from(pack.tau_f)),
-        integrators_(pack.integrators),
-        plant_lags_(pack.plant_lags),
-        filters_(pack.n) {}
+      : integrators(kernel::integrators(pack.plant) + (pack.integral ? 1 : 0)),
+        has_lag(pack.plant == kernel::PlantKind::fotd),
+        filters(pack.n) {
+    const Lanes kappa = Lanes::from(pack.kappa), delta = Lanes::from(pack.delta);
+    n0 = pack.integral ? kappa / Lanes::from(pack.tau_i) : kappa;
+    n1 = pack.integral ? kappa : delta;
+    n2 = pack.integral ? delta : Lanes(0.0);
+    tau_1 = has_lag ? Lanes::from(pack.tau_1) : Lanes(0.0);
+    tau_f = filters > 0 ? Lanes::from(pack.tau_f) : Lanes(0.0);
+    middle = mul_sub_from(Lanes(2.0) * n0, n2, n1 * n1);
+    lags = mul_add(Lanes(static_cast<double>(filters)), tau_f, Lanes(1.0) + tau_1);
+  }
 
-  /// L, its logarithm's derivative s = L'/L, and s'.
+  /// L and its logarithm's slope s = L'/L.
   struct At {
-    Complex L, s, ds;
+    Complex L, s;
+    Lanes inverse_square;  ///< 1/|L|^2
   };
 
-  At at(Lanes omega) const {
-    const Complex N = numerator(omega), slope = {Lanes(-2.0) * n2_ * omega, n1_};
-    const Complex inverse_N = inverse(N), g = slope * inverse_N;
-    const Complex bend = (Lanes(-2.0) * n2_) * inverse_N, g2 = g * g;
+  /// s' and s'' as well.
+  struct CloseAt {
+    At at;
+    Complex s1, s2;
+  };
+
+  At at(Lanes omega) const { return at(parts_at(omega)); }
+
+  CloseAt close_at(Lanes omega) const {
+    const Parts p = parts_at(omega);
+    const Complex bend = (Lanes(-2.0) * n2 * p.inverse_N) * conjugate(p.N), g1 = bend + -(p.g * p.g);
+    CloseAt close{at(p), g1, -(p.g * (bend + Lanes(2.0) * g1))};
+    const Lanes k = static_cast<double>(integrators), period2 = p.period * p.period;
+    close.s1.re = mul_add(k, period2, close.s1.re);
+    close.s2.re = mul_sub_from(Lanes(2.0) * k, period2 * p.period, close.s2.re);
+    if (has_lag) bend_by_lag(close, tau_1, p.lag, 1);
+    if (filters > 0) bend_by_lag(close, tau_f, p.filter, filters);
+    return close;
+  }
+
+  /// |N|^2 = n0^2 + (n1^2 - 2 n0 n2) w^2 + n2^2 w^4, x = w^2
+  Lanes numerator_square(Lanes x) const { return mul_add(x, mul_add(n2 * n2, x, middle), n0 * n0); }
+  Lanes lag_square(Lanes x) const { return mul_add(tau_1 * tau_1, x, Lanes(1.0)); }
+  Lanes filter_square(Lanes x) const { return mul_add(tau_f * tau_f, x, Lanes(1.0)); }
+
+  /// arg L, continuous from -k pi/2 at omega = 0. The angles of N, in [0, pi], and of two lags are one of [-pi, pi].
+  Lanes phase(Lanes omega) const {
+    Complex turned = {mul_sub_from(n2 * omega, omega, n0), n1 * omega};
+    if (has_lag) turned = turned * Complex{Lanes(1.0), -(tau_1 * omega)};
+    Lanes phase = -omega - Lanes(integrators * (kPi / 2));
+    if (filters == 1) turned = turned * Complex{Lanes(1.0), -(tau_f * omega)};
+    if (filters > 1) phase = mul_sub_from(Lanes(static_cast<double>(filters)), arc_tangent(tau_f * omega), phase);
+    return phase + angle(turned.re, turned.im);
+  }
+
+  int integrators;
+  bool has_lag;
+  int filters;
+  Lanes n0, n1, n2, tau_1, tau_f;  ///< a time constant that the loop lacks is 0
+  Lanes middle;                    ///< n1^2 - 2 n0 n2
+  Lanes lags;                      ///< delay included: arg L falls by no more than this times omega
+
+ private:
+  struct Parts {
+    Lanes omega;
+    Complex N, g, lag, filter;  ///< g = N'/N, lag = 1/(1 + j tau_1 w), filter = 1/(1 + j tau_f w)
+    Lanes inverse_N, period, lag_square, filter_square;  ///< 1/|N|^2, 1/w, and the squares, not inverted
+  };
+
+  Parts parts_at(Lanes omega) const {
+    Parts p;
+    p.omega = omega;
+    const Lanes x = omega * omega, bent = n2 * omega;
+    p.N = {mul_sub_from(bent, omega, n0), n1 * omega};
+    p.lag_square = lag_square(x), p.filter_square = filter_square(x);
+    const Lanes N = norm(p.N), N_omega = N * omega, both = p.lag_square * p.filter_square;
+    const Lanes inverse = Lanes(1.0) / (N_omega * both);
+    const Lanes without_lags = inverse * both, of_lags = inverse * N_omega;
+    p.inverse_N = without_lags * omega, p.period = without_lags * N;
+    p.lag = lag_of(tau_1 * omega, of_lags * p.filter_square);
+    p.filter = lag_of(tau_f * omega, of_lags * p.lag_square);
+    const Complex slope = {Lanes(-2.0) * bent, n1};
+    p.g = p.inverse_N * (slope * conjugate(p.N));
+    return p;
+  }
+
+  static Complex lag_of(Lanes t, Lanes inverse_square) { return {inverse_square, -(t * inverse_square)}; }
+
+  At at(const Parts& p) const {
+    const SineCosine turn = sine_cosine(p.omega);
     At a;
-    a.ds = {bend.re - g2.re, bend.im - g2.im};
-    a.s = {g.re, g.im - Lanes(1.0)};
-    const SineCosine turn = sine_cosine(omega);
-    a.L = N * Complex{turn.cosine, -turn.sine};
-    const Lanes period = Lanes(1.0) / omega;
-    for (int i = 0; i < integrators_; ++i) {
-      a.L = {a.L.im * period, -(a.L.re * period)};
-      a.s.re = a.s.re - period;
-      a.ds.re = mul_add(period, period, a.ds.re);
+    a.L = p.N * Complex{turn.cosine, -turn.sine};
+    a.s = {mul_sub_from(Lanes(static_cast<double>(integrators)), p.period, p.g.re), p.g.im - Lanes(1.0)};
+    a.inverse_square = p.inverse_N;
+    for (int i = 0; i < integrators; ++i) {
+      a.L = {a.L.im * p.period, -(a.L.re * p.period)};
+      a.inverse_square = a.inverse_square * (p.omega * p.omega);
     }
-    if (plant_lags_ > 0) multiply_lag(a, tau_1_, omega, plant_lags_);
-    if (filters_ > 0) multiply_lag(a, tau_f_, omega, filters_);
+    if (has_lag) multiply_lag(a, tau_1, p.lag, p.lag_square, 1);
+    if (filters > 0) multiply_lag(a, tau_f, p.filter, p.filter_square, filters);
     return a;
   }
 
-  /// |L|^2
-  Lanes square(Lanes omega) const {
-    const Lanes x = omega * omega;
-    Lanes square = norm(numerator(omega));
-    Lanes below = 1.0;
-    for (int i = 0; i < integrators_; ++i) below = below * x;
-    if (plant_lags_ > 0) below = below * lag_square(tau_1_, x);
-    const Lanes filter = lag_square(tau_f_, x);
-    for (int i = 0; i < filters_; ++i) below = below * filter;
-    return square / below;
+  /// times lag^count
+  static void multiply_lag(At& a, Lanes tau, Complex lag, Lanes square, int count) {
+    for (int i = 0; i < count; ++i) {
+      a.L = a.L * lag;
+      a.inverse_square = a.inverse_square * square;
+    }
+    const Lanes times = Lanes(static_cast<double>(count)) * tau;
+    a.s = {mul_add(times, lag.im, a.s.re), mul_sub_from(times, lag.re, a.s.im)};
   }
 
-  /// d ln|L| / d ln omega
-  Lanes log_log_slope(Lanes omega) const {
-    const Lanes x = omega * omega;
-    const Complex N = numerator(omega);
-    const Lanes rise = mul_add(n1_, n1_, Lanes(-2.0) * n2_ * N.re) * x / norm(N);
-    Lanes slope = rise - Lanes(static_cast<double>(integrators_));
-    if (plant_lags_ > 0) slope = slope - lag_slope(tau_1_, x);
-    if (filters_ > 0) slope = slope - Lanes(static_cast<double>(filters_)) * lag_slope(tau_f_, x);
-    return slope;
+  static void bend_by_lag(CloseAt& close, Lanes tau, Complex lag, int count) {
+    const Complex lag2 = lag * lag, lag3 = lag2 * lag;
+    const Lanes square = Lanes(static_cast<double>(count)) * tau * tau, twice = Lanes(2.0) * tau * square;
+    close.s1 = {mul_sub_from(square, lag2.re, close.s1.re), mul_sub_from(square, lag2.im, close.s1.im)};
+    close.s2 = {mul_sub_from(twice, lag3.im, close.s2.re), mul_add(twice, lag3.re, close.s2.im)};
   }
-
-  /// arg L, continuous from -k pi/2 at omega = 0: the imaginary part of N stays above 0.
-  Lanes phase(Lanes omega) const {
-    const Complex N = numerator(omega);
-    Lanes phase = upper_angle(N.re, N.im) - omega - Lanes(integrators_ * (kPi / 2));
-    if (plant_lags_ > 0) phase = phase - arc_tangent(tau_1_ * omega);
-    if (filters_ > 0)
-      phase = mul_sub_from(Lanes(static_cast<double>(filters_)), arc_tangent(tau_f_ * omega), phase);
-    return phase;
-  }
-
-  /// At least |L|^2 everywhere beyond omega: every term of |N|^2 over |D|^2, bounded by something that falls. A power of
-  /// omega too many is taken up by the plant's lag.
-  Lanes square_beyond(Lanes omega) const {
-    const Lanes x = omega * omega, per_x = Lanes(1.0) / x;
-    Lanes common = 1.0, without_lag = 1.0;
-    const Lanes filter = lag_square(tau_f_, x);
-    for (int i = 0; i < filters_; ++i) common = common / filter;
-    without_lag = common;
-    if (plant_lags_ > 0) common = common / lag_square(tau_1_, x);
-    const auto term = [&](Lanes c, int power) {
-      const int excess = power - integrators_;
-      if (excess > 0) return c * without_lag / (tau_1_ * tau_1_);
-      Lanes t = c * common;
-      for (int i = excess; i < 0; ++i) t = t * per_x;
-      return t;
-    };
-    return term(n0_ * n0_, 0) + term(max(Lanes(0.0), middle_term()), 1) + term(n2_ * n2_, 2);
-  }
-
-  /// Lanes in which |L| falls everywhere: so do its parts 1/(1 + tau^2 w^2), and |N|^2/w^2k does by its own slope.
-  Mask falls() const {
-    if (integrators_ == 1) return n2_ < Lanes(1e-300);
-    if (integrators_ == 2) return middle_term() > Lanes(0.0);
-    return middle_term() > Lanes(-1.7320508075688772) * n0_ * n2_;
-  }
-
-  /// Lanes in which |L| falls all the way up to omega.
-  Mask falls_up_to(Lanes omega) const {
-    const Lanes x = omega * omega;
-    if (integrators_ == 1) return n2_ * x < n0_;
-    return falls() | (middle_term() * x > Lanes(-2.0) * n0_ * n0_);
-  }
-
-  /// Lanes in which arg L stays above -pi all the way up to omega.
-  Mask leads_up_to(Lanes omega) const {
-    if (integrators_ == 1) return sum_of_lags() * omega < Lanes(kPi / 2);
-    if (integrators_ == 2) return arc_tangent(n1_ / n0_ * omega) > sum_of_lags() * omega;
-    return Mask::from(0);
-  }
-
-  /// Lanes in which |L/(1 + L)| stays below 1 all the way up to omega. With M = 1/L, |1 + M|^2 = 1 + |M| (|M| + 2 cos arg M),
-  /// and for one integrator, a = n1/n0 and n2 w^2 < 2 n0,
-  ///
-  ///     |M| >= w/(n0 sqrt(1 + a^2 w^2)),     cos arg M >= -w (lags - a/(1 + a^2 w^2))
-  ///
-  /// which once compared stays so for every smaller w. More integrators always overshoot.
-  Mask damped_up_to(Lanes omega) const {
-    if (integrators_ != 1) return Mask::from(0);
-    const Lanes a = n1_ / n0_, square = mul_add(a * omega, a * omega, Lanes(1.0));
-    const Lanes least = Lanes(1.0) / (n0_ * sqrt(square)), most = Lanes(2.0) * (sum_of_lags() - a / square);
-    return (least > most) & (n2_ * omega * omega < n0_);
-  }
-
- private:
-  /// Delay included: arg L falls by no more than this times omega.
-  Lanes sum_of_lags() const {
-    const Lanes plant = plant_lags_ > 0 ? tau_1_ : Lanes(0.0), filter = filters_ > 0 ? tau_f_ : Lanes(0.0);
-    return Lanes(1.0) + plant + Lanes(static_cast<double>(filters_)) * filter;
-  }
-
-  /// |N|^2 = n0^2 + (n1^2 - 2 n0 n2) w^2 + n2^2 w^4
-  Lanes middle_term() const { return mul_sub_from(Lanes(2.0) * n0_, n2_, n1_ * n1_); }
-
-  Complex numerator(Lanes omega) const { return {mul_sub_from(n2_ * omega, omega, n0_), n1_ * omega}; }
-  static Lanes lag_square(Lanes tau, Lanes x) { return mul_add(tau * tau, x, Lanes(1.0)); }
-  static Lanes lag_slope(Lanes tau, Lanes x) {
-    const Lanes square = tau * tau * x;
-    return square / (Lanes(1.0) + square);
-  }
-
-  /// times 1/(1 + j tau omega)^count
-  static void multiply_lag(At& a, Lanes tau, Lanes omega, int count) {
-    const Lanes t = tau * omega, re = Lanes(1.0) / mul_add(t, t, Lanes(1.0));
-    const Complex q = {re, -(t * re)}, q2 = q * q;
-    const Lanes times = static_cast<double>(count);
-    for (int i = 0; i < count; ++i) a.L = a.L * q;
-    a.s = {mul_add(times * tau, q.im, a.s.re), mul_sub_from(times * tau, q.re, a.s.im)};
-    const Lanes square = times * tau * tau;
-    a.ds = {mul_sub_from(square, q2.re, a.ds.re), mul_sub_from(square, q2.im, a.ds.im)};
-  }
-
-  Lanes n0_, n1_, n2_, tau_1_, tau_f_;
-  int integrators_, plant_lags_, filters_;
 };
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -11,6 +11,9 @@ inline constexpr int kMaxPanels = 64;
 inline constexpr int kMaxFilters = 16;
 
 enum class PlantKind { dipdt, ipdt, fotd };
+constexpr int integrators(PlantKind plant) {
+  return plant == PlantKind::dipdt ? 2 : plant == PlantKind::ipdt ? 1 : 0;
+}
 
 /// How y_w is found.
 enum class SetpointRun {
@@ -60,23 +63,20 @@ struct PackResult {
   PackColumn dead_times;  ///< simulated
 };
 
-/// Open loops with one gain crossover and at least one integrator.
+/// Open loops, all with integral action or all without.
 struct MarginPack {
-  int integrators, plant_lags, n;
-  bool highest_at_ends;  ///< beyond any frequency |L| is largest there or at infinity: n = 0 on ipdt and fotd
+  PlantKind plant;
+  bool integral;
+  int n;
 
-  PackColumn n0, n1, n2, tau_1, tau_f;  ///< a time constant that the loop lacks is 1
-  PackColumn end_gain;                  ///< |L| at infinity, below 1
-  PackColumn crossover_guess;
+  PackColumn kappa, tau_i, delta, tau_1, tau_f;
 };
 
+/// Of an unstable loop everything but the first two is undefined; inf and 0 as in engine/measures/catalogue.h.
 struct MarginResult {
-  PackColumn phase;  ///< arg L at the gain crossover, rad; the loop is stable when it is above -pi
-  PackColumn crossover;
-  PackColumn Ms, Ms_omega, Mt, Mt_omega;
-  PackColumn gain_above,
-      gain_below;   ///< |L| where arg L = -pi: the largest below 1, the smallest above; 0 and inf: none
-  PackColumn done;  ///< 0 where the search was given up
+  PackColumn known;  ///< 0 where the loop may cross |L| = 1 more than once, or the search was given up; else 1
+  PackColumn stable;
+  PackColumn Ms, Ms_omega, Mt, Mt_omega, GM, GM_low, PM, DM;
 };
 
 /// What one instruction set offers.
