@@ -1,7 +1,7 @@
 /// The benchmarks by name, for Google Benchmark to run in random order, one repetition of each at a time.
 ///
 ///     peak/ISA                        multiplications and additions in registers, every instruction set
-///     CASE/engine, CASE/responses, CASE/batched, CASE/scalar
+///     CASE/engine, CASE/responses, CASE/margins, CASE/batched, CASE/scalar
 ///                                     settings per second of one core, by CPU time: bench/cases.h, bench/codes.h
 ///     scaling/one, scaling/all        a sweep on one thread and on all, by the clock; nothing is stored
 ///     store/nowhere, store/file       a sweep on all threads without and with its portrait file, by the clock

@@ -56,6 +56,14 @@ void run_responses(const Case& of, std::span<const Setting> settings, std::span<
   }
 }
 
+void run_margins(const Case& of, std::span<const Setting> settings, std::span<kernel::LoopMargins> found) {
+  for (std::size_t first = 0; first < settings.size(); first += kSlice) {
+    const std::size_t count = std::min(kSlice, settings.size() - first);
+    kernel::find_margins(chosen_implementation(), of.grid.family, settings.subspan(first, count),
+                         found.subspan(first, count));
+  }
+}
+
 void run_step_loop(StepCode code, const Case& of, std::span<const StepSetting> settings,
                    std::span<BothSteps> results) {
   PORTRAIT_CHECK(results.size() >= settings.size());

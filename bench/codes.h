@@ -6,6 +6,7 @@
 
 #include "bench/cases.h"
 #include "bench/isa/step_loop.h"
+#include "engine/kernel/margins.h"
 #include "engine/kernel/responses.h"
 #include "engine/measures/columns.h"
 
@@ -14,8 +15,11 @@ namespace portrait::bench {
 /// What the program does with a slice of a sweep: stability, every timed measure, status.
 void run_engine(const Case& of, std::span<const Setting> settings, MeasureColumns& columns);
 
-/// The part of it that is the kernel: both responses and what is measured of them.
+/// The part of it that simulates: both responses and what is measured of them.
 void run_responses(const Case& of, std::span<const Setting> settings, std::span<kernel::Measured> measured);
+
+/// The other part: stability, peaks and margins.
+void run_margins(const Case& of, std::span<const Setting> settings, std::span<kernel::LoopMargins> found);
 
 enum class StepCode {
   scalar,   ///< one setting after the other, 1,000 steps a dead time

@@ -50,6 +50,16 @@ void register_responses(const Case& of, const Effort& effort) {
          effort);
 }
 
+void register_margins(const Case& of, const Effort& effort) {
+  repeat(benchmark::RegisterBenchmark((of.name + "/margins").c_str(),
+                                      [&of](benchmark::State& state) {
+                                        std::vector<kernel::LoopMargins> found(of.settings.size());
+                                        for (auto _ : state) run_margins(of, of.settings, found);
+                                        state.SetItemsProcessed(items(state, of.settings.size()));
+                                      }),
+         effort);
+}
+
 void register_step_loop(StepCode code, const char* name, const Case& of, std::vector<Setting> settings,
                         const Effort& effort) {
   const auto time = [&of, code, plain = for_step_loop(settings)](benchmark::State& state) {
@@ -76,6 +86,7 @@ void register_peaks(const Effort& effort) {
 void register_rates(const Case& of, const Effort& effort) {
   register_engine(of, effort);
   register_responses(of, effort);
+  register_margins(of, effort);
   register_step_loop(StepCode::batched, "batched", of, of.settings, effort);
   register_step_loop(StepCode::scalar, "scalar", of, every_nth(of.settings, kScalarSettings), effort);
 }

@@ -18,6 +18,7 @@ struct Code {
 
 constexpr Code kCodes[] = {{"engine", "engine", &Proof::engine},
                            {"responses", "responses alone", &Proof::engine},
+                           {"margins", "margins alone", &Proof::engine},
                            {"batched", "RK4 1/50, batched", &Proof::batched},
                            {"scalar", "RK4 1/1000, scalar", &Proof::scalar}};
 

@@ -18,21 +18,17 @@ LoopMargins margins_of(const MarginResult& found, std::size_t lane) {
   LoopMargins m;
   m.stable = found.stable[lane] > 0;
   if (!m.stable) return m;
-  m.Ms = found.Ms[lane], m.Ms_omega = found.Ms_omega[lane];
-  m.Mt = found.Mt[lane], m.Mt_omega = found.Mt_omega[lane];
-  m.GM = found.GM[lane], m.GM_low = found.GM_low[lane], m.PM = found.PM[lane], m.DM = found.DM[lane];
+  m.measures[Measure::Ms] = found.Ms[lane], m.measures[Measure::Ms_omega] = found.Ms_omega[lane];
+  m.measures[Measure::Mt] = found.Mt[lane], m.measures[Measure::Mt_omega] = found.Mt_omega[lane];
+  m.measures[Measure::GM] = found.GM[lane], m.measures[Measure::GM_low] = found.GM_low[lane];
+  m.measures[Measure::PM] = found.PM[lane], m.measures[Measure::DM] = found.DM[lane];
   return m;
 }
 
 LoopMargins one_by_one(const Loop& loop) {
   LoopMargins m;
   m.stable = is_stable(open_loop(loop));
-  if (!m.stable) return m;
-  MeasureRow row;
-  measure_loop(loop, std::nullopt, row);
-  m.Ms = row[Measure::Ms], m.Ms_omega = row[Measure::Ms_omega];
-  m.Mt = row[Measure::Mt], m.Mt_omega = row[Measure::Mt_omega];
-  m.GM = row[Measure::GM], m.GM_low = row[Measure::GM_low], m.PM = row[Measure::PM], m.DM = row[Measure::DM];
+  if (m.stable) measure_loop(loop, std::nullopt, m.measures);
   return m;
 }
 

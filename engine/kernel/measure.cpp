@@ -6,16 +6,6 @@
 #include "engine/kernel/margins.h"
 
 namespace portrait::kernel {
-namespace {
-
-void set_margins(const LoopMargins& m, MeasureRow& row) {
-  row[Measure::Ms] = m.Ms, row[Measure::Ms_omega] = m.Ms_omega;
-  row[Measure::Mt] = m.Mt, row[Measure::Mt_omega] = m.Mt_omega;
-  row[Measure::GM] = m.GM, row[Measure::GM_low] = m.GM_low;
-  row[Measure::PM] = m.PM, row[Measure::DM] = m.DM;
-}
-
-}  // namespace
 
 void measure(const Implementation& implementation, const LoopFamily& family, Horizon horizon,
              std::span<const Setting> settings, std::span<Measured> results) {
@@ -33,7 +23,7 @@ void measure(const Implementation& implementation, const LoopFamily& family, Hor
   std::vector<Measured> found(stable.size());
   measure_responses(implementation, family, stable, horizon, found);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    set_margins(margins[place[i]], found[i].measures);
+    for (const Measure m : kMarginMeasures) found[i].measures[m] = margins[place[i]].measures[m];
     results[place[i]] = found[i];
   }
 }

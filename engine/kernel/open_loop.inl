@@ -1,6 +1,6 @@
 /// The open loop on the imaginary axis, a lane each.
 ///
-///     L(jw) = N(jw) e^{-jw} / ((jw)^k (1 + j tau_1 w)^m (1 + j tau_f w)^n)        N = n0 + n1 s + n2 s^2, see open_loop.h
+///     L(jw) = N(jw) e^{-jw} / ((jw)^k (1 + j tau_1 w)^m (1 + j tau_f w)^n)        N = n0 + n1 s + n2 s^2
 ///
 /// m is 0 or 1. All reciprocals that an evaluation needs come out of one division.
 #pragma once

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/kernel/numerator.h"
+#include "engine/loop/open_loop.h"
 
 namespace portrait::kernel {
 namespace {

@@ -1,5 +1,6 @@
 #include "engine/loop/open_loop.h"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -47,6 +48,16 @@ std::vector<double> roots_of_x(const Polynomial& of_x) {
   return roots;
 }
 
+/// C = (n0 + n1 s + n2 s^2)/s, or without integral action n0 + n1 s.
+std::array<double, 3> controller_numerator(const Setting& s) {
+  if (has_integral_action(s)) return {s.kappa / s.tau_i, s.kappa, s.delta};
+  return {s.kappa, s.delta, 0};
+}
+
+int integrators_of(const Loop& loop) {
+  return integrators(loop.family.plant) + (has_integral_action(loop.setting) ? 1 : 0);
+}
+
 /// Written out, a polynomial of high degree has lost some digits: Newton's method on log |L| brings them back.
 double polished(const OpenLoop& loop, double omega) {
   double best = omega, off = std::log(gain_at(loop, omega));
@@ -64,12 +75,22 @@ double polished(const OpenLoop& loop, double omega) {
 
 OpenLoop open_loop(const Loop& loop) {
   const Setting& s = loop.setting;
-  const bool integral = has_integral_action(s);
-  const Polynomial N = integral ? Polynomial{s.kappa / s.tau_i, s.kappa, s.delta} : Polynomial{s.kappa, s.delta};
-  std::vector<Polynomial> D(static_cast<std::size_t>(integrators(loop.family.plant) + (integral ? 1 : 0)), {0, 1});
+  const std::array<double, 3> n = controller_numerator(s);
+  std::vector<Polynomial> D(static_cast<std::size_t>(integrators_of(loop)), {0, 1});
   if (loop.family.plant == Plant::fotd) D.push_back({1, s.tau_1});
   D.insert(D.end(), static_cast<std::size_t>(loop.family.n), Polynomial{1, s.tau_f});
-  return open_loop({N}, D, 1);
+  return open_loop({Polynomial(n.begin(), n.end())}, D, 1);
+}
+
+double gain_squared_at(const Loop& loop, double omega) {
+  const Setting& s = loop.setting;
+  const auto [n0, n1, n2] = controller_numerator(s);
+  const double x = omega * omega, real = n0 - n2 * x;
+  double gain = real * real + n1 * n1 * x;
+  for (int i = 0; i < integrators_of(loop); ++i) gain /= x;
+  if (loop.family.plant == Plant::fotd) gain /= 1 + s.tau_1 * s.tau_1 * x;
+  for (int i = 0; i < loop.family.n; ++i) gain /= 1 + s.tau_f * s.tau_f * x;
+  return gain;
 }
 
 OpenLoop open_loop(const std::vector<Polynomial>& numerator, const std::vector<Polynomial>& denominator,

@@ -34,6 +34,10 @@ inline Polynomial squared(const Quadratic& f) {
   return f.b == 0 ? Polynomial{1, f.a * f.a} : Polynomial{1, f.a * f.a - 2 * f.b, f.b * f.b};
 }
 
+/// |L(j omega)|^2 straight from the setting, for code that looks at every setting of a sweep: nothing is allocated.
+/// REQUIRES: the loop is valid; omega > 0.
+double gain_squared_at(const Loop& loop, double omega);
+
 /// L(j omega), omega > 0.
 std::complex<double> response_at(const OpenLoop& loop, double omega);
 /// d/domega of L(j omega) divided by L(j omega).

@@ -9,7 +9,7 @@ import tempfile
 
 BENCH = sys.argv[1]
 CASES = ["dipdt-pid", "dipdt-pid-fast", "ipdt-pi", "ipdt-pid", "fotd-pi"]
-CODES = ["engine", "responses", "batched", "scalar"]
+CODES = ["engine", "responses", "margins", "batched", "scalar"]
 SWEEPS = ["scaling/one", "scaling/all", "store/nowhere", "store/file"]
 
 
