@@ -6,8 +6,7 @@
 
 #include "bench/benchmarks.h"
 #include "engine/base/check.h"
-#include "engine/sweep/sweep.h"
-#include "grids/tiling.h"
+#include "grids/sweep_job.h"
 #include "portraits/writer.h"
 
 namespace portrait::bench {
@@ -17,13 +16,7 @@ using Prepare = TileQueue::Prepare;
 
 void run_sweep(const Grid& grid, int threads, const Prepare& prepare) {
   const Tiling tiling(grid);
-  SweepJob job;
-  job.family = grid.family;
-  job.horizon = grid.horizon;
-  job.measures = grid.measures;
-  job.tile_count = tiling.tile_count();
-  job.threads = threads;
-  job.settings_of = [&](std::uint64_t tile) { return settings_in(grid, tiling.box(tile)); };
+  SweepJob job = sweep_job(grid, tiling, threads);
   job.prepare = prepare;
   PORTRAIT_CHECK(sweep(job).complete);
 }

@@ -11,7 +11,7 @@
 #include "engine/base/status.h"
 #include "engine/sweep/sweep.h"
 #include "grids/grid_file.h"
-#include "grids/tiling.h"
+#include "grids/sweep_job.h"
 #include "portraits/writer.h"
 #include "tools/exit_codes.h"
 #include "tools/interrupt.h"
@@ -45,18 +45,6 @@ struct Tally {
   }
   std::uint64_t operator[](Status status) const { return count[static_cast<std::size_t>(status)]; }
 };
-
-SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads) {
-  SweepJob job;
-  job.family = grid.family;
-  job.horizon = grid.horizon;
-  job.sampling = grid.sampling;
-  job.measures = grid.measures;
-  job.tile_count = tiling.tile_count();
-  job.threads = threads;
-  job.settings_of = [&](std::uint64_t tile) { return settings_in(grid, tiling.box(tile)); };
-  return job;
-}
 
 // ---------------------------------------------------------------- dry run
 
@@ -190,7 +178,7 @@ int run(const SweepArguments& a, const Invocation& invocation) {
   const int threads = a.threads > 0 ? a.threads : usual_threads();
   if (a.dry_run) return dry_run(a, grid, tiling, threads);
   if (a.output.empty()) throw InputError("-o FILE.h5 is missing: where shall the portrait go?");
-  return sweep_to_file(a, invocation, grid, job_for(grid, tiling, threads));
+  return sweep_to_file(a, invocation, grid, sweep_job(grid, tiling, threads));
 }
 
 }  // namespace
