@@ -45,9 +45,10 @@ class Gain {
   }
 
   /// omega where |L| = 1, of the lanes that cross once: Newton's method on ln|L| over ln omega, inside a bracket.
-  Lanes crossover() const {
+  /// `lost`: lanes whose numbers are too large or small for it.
+  Lanes crossover(Mask& lost) const {
     Lanes omega = crossover_guess(), low = 0.0, high = kInfinity;
-    Mask open = once_;
+    Mask open = once_ & (end_ < Lanes(1.0));
     for (int i = 0; i < 200 && any(open); ++i) {
       const Step step = newton_step(omega);
       low = select(open & step.below, omega, low);
@@ -59,6 +60,7 @@ class Gain {
       omega = select(open, select(arrived | inside, step.to, cut), omega);
       open = but_not(open, arrived);
     }
+    lost = open;
     return omega;
   }
 

@@ -22,13 +22,14 @@ inline void store_margins(const March& march, kernel::MarginResult& result) {
 inline void find_margins(const kernel::MarginPack& pack, kernel::MarginResult& result) {
   const OpenLoopLanes loop(pack);
   const Gain gain(loop);
-  const Lanes crossover = gain.crossover(), phase = loop.phase(crossover), room = phase + Lanes(kPi);
+  Mask lost;
+  const Lanes crossover = gain.crossover(lost), phase = loop.phase(crossover), room = phase + Lanes(kPi);
   const Mask bounded = gain.end() < Lanes(1.0), unbounded = !bounded;
   const Mask once = bounded & gain.crosses_once(), never = bounded & gain.never_crosses();
-  const Mask stable = (once & (room > Lanes(0.0))) | never;
+  const Mask stable = (but_not(once, lost) & (room > Lanes(0.0))) | never;
   March march(loop, gain);
   if (any(stable)) march.run(select(once, crossover, March::lowest(loop)), stable, stable & once);
-  flags(but_not(unbounded | once | never, march.given_up)).to(result.known);
+  flags(but_not(unbounded | once | never, march.given_up | (once & lost))).to(result.known);
   flags(stable).to(result.stable);
   const Lanes degrees = (Lanes(kPi) - abs(phase)) * Lanes(180 / kPi);
   select(once, degrees, Lanes(kInfinity)).to(result.PM);
