@@ -107,6 +107,7 @@ int run(int argc, char** argv) {
   add_simulate(app, invocation);
   add_plot(app, invocation);
   add_tune(app, invocation);
+  add_reproduce(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,6 +12,7 @@
 #include "tools/arguments.h"
 #include "tools/exit_codes.h"
 #include "tools/query_output.h"
+#include "tools/query_rules.h"
 #include "tools/verbs.h"
 
 namespace portrait::tools {
@@ -34,7 +35,7 @@ struct QueryArguments {
   std::vector<std::string> where;
   std::size_t top = 1;
   int threads = 0;
-  bool include_not_settled = false, json = false, csv = false;
+  bool include_not_settled = false, rules = false, json = false, csv = false;
 };
 
 /// Everything that the printing below needs to know.
@@ -95,7 +96,7 @@ Json json_near_miss(const Asked& asked) {
   return {{"settings", json_settings({asked.grid.family, miss->found.setting})}, {"violations", violations}};
 }
 
-void print_as_json(const Asked& asked) {
+void print_as_json(const Asked& asked, const std::optional<std::vector<RuleOnPortrait>>& rules) {
   const Answer& answer = asked.answer;
   Json top = Json::array();
   for (const Found& found : answer.top) top.push_back(json_found(asked.grid, asked.units(), found));
@@ -114,6 +115,7 @@ void print_as_json(const Asked& asked) {
     json["excluded"] = json_excluded(asked);
     json["least_violation"] = json_near_miss(asked);
   }
+  if (rules) json["rules"] = json_rules(asked.grid, asked.question, *rules);
   print_json(json);
 }
 
@@ -189,6 +191,10 @@ std::string none_text(const Asked& asked) {
   return text;
 }
 
+std::optional<double> optimum_of(const Answer& answer) {
+  return answer.top.empty() ? std::nullopt : std::optional(answer.top.front().objective);
+}
+
 int query(const QueryArguments& a) {
   if (a.json && a.csv) throw InputError("--json and --csv: give one of the two");
   const PortraitReader portrait(a.file);
@@ -197,7 +203,8 @@ int query(const QueryArguments& a) {
                           .top = a.top};
   const Answer answer = ask(portrait, question);
   const Asked asked{portrait.grid(), question, answer};
-  if (a.json) print_as_json(asked);
+  const auto rules = a.rules ? std::optional(rules_on(portrait.grid(), question, optimum_of(answer))) : std::nullopt;
+  if (a.json) print_as_json(asked, rules);
   if (a.csv) print_text(csv_text(portrait.grid(), answer.top));
   if (answer.top.empty()) {
     std::string text = none_text(asked);
@@ -206,6 +213,7 @@ int query(const QueryArguments& a) {
     return kNoneAdmissible;
   }
   if (!a.json && !a.csv) print_as_table(asked);
+  if (rules && !a.json && !a.csv) print_text(rules_text(portrait.grid(), question, *rules));
   return kDone;
 }
 
@@ -223,6 +231,7 @@ void add_query(CLI::App& app, Invocation& invocation) {
   verb->add_option("--top", a->top, "how many of the best settings to list")->capture_default_str();
   verb->add_option("--plant", a->plant, "K=..,Td=..[,T1=..]: the answer in the units of this plant");
   verb->add_option("--step", a->step, "w=..,d=..: sizes of the steps in setpoint and disturbance (1 each)");
+  verb->add_flag("--rules", a->rules, "where each tuning rule lies: admissible or not, and its objective over the optimum's");
   verb->add_flag("--include-not-settled", a->include_not_settled,
                  "also settings whose responses had not settled at the horizon");
   verb->add_option("--threads", a->threads, "threads to read with (all)");

@@ -10,10 +10,10 @@
 #include "engine/loop/parameters.h"
 #include "engine/rules/catalogue.h"
 #include "engine/rules/tuned_loop.h"
-#include "engine/sweep/method.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
 #include "tools/plant_arguments.h"
+#include "tools/response_argument.h"
 #include "tools/verbs.h"
 
 namespace portrait::tools {
@@ -23,15 +23,19 @@ constexpr const char* kHelp =
     R"(Example:
   portrait tune huba2022-qrdp --plant dipdt --K 2 --Td 0.5 --Tf 0.05
   portrait tune dalen2018-pareto --plant ipdt --Ms 1.59
+  portrait tune simc-pi --plant fotd --response step.csv
   portrait tune --list
 
 Tunes a controller by a published rule and measures the loop it makes with the plant, both
 steps of size one, all in the plant's units. portrait tune RULE --list shows one rule with
-its options.)";
+its options. With --response the plant comes from a recorded response (CSV of t, u, y): fitted
+for --plant dipdt, ipdt or fotd, its areas for self-regulating or integrating, its steepest
+tangent for reaction-curve; without RULE only that is shown.)";
 
 struct TuneArguments {
   std::string rule;
   PlantArguments plant;
+  ResponseArguments response;
   std::map<std::string, std::string> options;  ///< of all rules; empty: not given
   bool list = false, json = false;
 };
@@ -85,17 +89,10 @@ struct Answer {
   const rules::Rule& rule;
   const rules::RulePlant& plant;
   const rules::Tuned& tuned;
-  std::optional<rules::TunedLoop> loop;
-  SettingMeasured measured;
+  const RecordedPlant* recorded;                 ///< nullptr: the plant was given
+  std::optional<rules::TunedLoop> loop;          ///< where a family of portraits has it
+  std::optional<rules::TunedMeasures> measured;  ///< nothing when the plant is known by its areas alone
 };
-
-SettingMeasured measured(const rules::TunedLoop& loop) {
-  SettingMeasured result;
-  measure_settings(Method::kernel, loop.loop.family, Horizon::until_settled(), std::nullopt,
-                   {&loop.loop.setting, 1}, {&result, 1});
-  for (const Measure m : all_measures()) result.measures[m] *= scale(m, loop.plant);
-  return result;
-}
 
 std::vector<Measure> shown_measures() {
   const auto all = all_measures();
@@ -130,6 +127,19 @@ Json json_tuned(const rules::Tuned& t) {
   return json;
 }
 
+Json json_record(const RecordedPlant& recorded) {
+  Json json = Json::object();
+  for (const rules::Finding& f : recorded.found) json[f.name] = json_number(f.value);
+  json["remarks"] = recorded.remarks;
+  return json;
+}
+
+std::string record_text(const RecordedPlant& recorded) {
+  std::string text = "record";
+  for (const rules::Finding& f : recorded.found) text += fmt::format("  {} = {}", f.name, short_number(f.value));
+  return text + "\n";
+}
+
 Json json_answer(const Answer& a) {
   Json findings = Json::object();
   for (const rules::Finding& f : a.tuned.findings) findings[f.name] = json_number(f.value);
@@ -141,11 +151,11 @@ Json json_answer(const Answer& a) {
             {"settings", nullptr},
             {"measures", nullptr},
             {"status", to_string(Status::not_computed)}};
-  if (!a.loop) return json;
-  json["settings"] = json_settings(a.loop->loop);
-  json["simulate"] = simulate_command(a.loop->loop);
-  json["measures"] = json_measures(a.measured.measures, shown_measures());
-  json["status"] = to_string(a.measured.status);
+  if (a.recorded) json["record"] = json_record(*a.recorded);
+  if (a.loop) json["settings"] = json_settings(a.loop->loop), json["simulate"] = simulate_command(a.loop->loop);
+  if (!a.measured) return json;
+  json["measures"] = json_measures(a.measured->measures, shown_measures());
+  json["status"] = to_string(a.measured->status);
   return json;
 }
 
@@ -175,27 +185,50 @@ std::string tuned_text(const rules::Tuned& t) {
 }
 
 std::string answer_text(const Answer& a) {
-  std::string text = fmt::format("{} ({})\n{}\n\n", a.rule.name, a.rule.source, rule_plant_text(a.plant));
+  std::string text = fmt::format("{} ({})\n{}\n", a.rule.name, a.rule.source, rule_plant_text(a.plant));
+  text += (a.recorded ? record_text(*a.recorded) : "") + "\n";
   text += tuned_text(a.tuned);
   text += "\n  found";
   for (const rules::Finding& f : a.tuned.findings) text += fmt::format("  {} = {}", f.name, short_number(f.value));
   text += "\n";
-  if (!a.loop) return text;
-  text += fmt::format("  normalised  {}\n  {}\n\n", setting_text(a.loop->loop), to_string(a.measured.status));
-  return text + measures_table(a.measured.measures, shown_measures(), "real units, unit steps");
+  if (a.loop) text += fmt::format("  normalised  {}\n", setting_text(a.loop->loop));
+  if (!a.measured) return text;
+  text += fmt::format("  {}\n\n", to_string(a.measured->status));
+  return text + measures_table(a.measured->measures, shown_measures(), "real units, unit steps");
+}
+
+std::optional<RecordedPlant> recorded_or_not(const TuneArguments& a) {
+  if (a.response.file.empty()) return std::nullopt;
+  if (!a.plant.K.empty() || !a.plant.Td.empty() || !a.plant.T1.empty())
+    throw InputError("--K, --Td and --T1 have no place here: the plant comes from --response");
+  if (a.plant.plant.empty())
+    throw InputError(
+        "--plant is missing: dipdt, ipdt or fotd to fit one, self-regulating or integrating for areas, or "
+        "reaction-curve");
+  RecordedPlant made = recorded_plant(a.response, a.plant.plant);
+  for (const std::string& remark : made.remarks) print_message("note: " + remark);
+  return made;
+}
+
+int show_record(const RecordedPlant& recorded, bool json) {
+  json ? print_json(json_record(recorded)) : print_text(record_text(recorded));
+  return kDone;
 }
 
 int tune(const TuneArguments& a) {
   if (a.list) return list(a);
-  if (a.rule.empty()) throw InputError("which rule? portrait tune --list shows them all");
+  if (a.rule.empty() && a.response.file.empty())
+    throw InputError("which rule? portrait tune --list shows them all");
+  const std::optional<RecordedPlant> recorded = recorded_or_not(a);
+  if (a.rule.empty()) return show_record(*recorded, a.json);
   const rules::Rule& rule = rules::rule_named(a.rule);
-  const rules::RulePlant plant = plant_argument(a.plant);
+  const rules::RulePlant plant = recorded ? recorded->plant : plant_argument(a.plant);
   std::map<std::string, std::string> given;
   for (const auto& [name, text] : a.options)
     if (!text.empty()) given[name] = text;
   const rules::Tuned tuned = rules::tune(rule, plant, given);
-  Answer answer{rule, plant, tuned, rules::tuned_loop(plant, tuned), {}};
-  if (answer.loop) answer.measured = measured(*answer.loop);
+  Answer answer{rule, plant, tuned, recorded ? &*recorded : nullptr, rules::tuned_loop(plant, tuned), {}};
+  if (!plant.measured) answer.measured = rules::measured(plant, tuned);
   if (a.json)
     print_json(json_answer(answer));
   else
@@ -210,6 +243,7 @@ void add_tune(CLI::App& app, Invocation& invocation) {
   CLI::App* verb = add_verb(app, "tune", "a controller by a published tuning rule, and its loop", kHelp);
   verb->add_option("rule", a->rule, "name of the rule");
   add_plant_options(*verb, a->plant);
+  add_response_options(*verb, a->response);
   for (const rules::OptionInfo& option : rules::all_options())
     if (verb->get_option_no_throw(fmt::format("--{}", option.name)) == nullptr)
       verb->add_option(fmt::format("--{}", option.name), a->options[std::string(option.name)],

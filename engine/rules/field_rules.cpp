@@ -62,7 +62,7 @@ StandardForm simc_pi_of(std::string_view rule, const RulePlant& plant, const Cho
   if (plant.integrators != 0) fail_precondition(rule, "a PI does not stabilise two integrators: simc-pid does");
   const FewLags few = reduced(rule, plant, f, 1);
   if (few.lags.empty())
-    fail_precondition(rule, "the plant is a dead time alone: give it a lag, or take huba2021-jrm with --j 0");
+    fail_precondition(rule, "the plant is a dead time alone: give it a lag, or take huba2021-jrm with --lags 0");
   const double Tc = target(rule, choices, few.dead_time, 1);
   findings = {{"K", plant.K}, {"T", few.lags[0]}, {"tau", few.dead_time}, {"Tc", Tc}};
   const LagDelayPlant p{plant.K, few.lags[0], few.dead_time};

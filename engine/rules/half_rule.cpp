@@ -16,6 +16,7 @@ FewLags half_rule(std::vector<double> lags, double dead_time, std::size_t kept) 
     lags[kept - 1] += half;
     dead_time = std::accumulate(lags.begin() + static_cast<std::ptrdiff_t>(kept) + 1, lags.end(), dead_time + half);
     lags.resize(kept);
+    std::sort(lags.begin(), lags.end(), std::greater<>());
   }
   return {lags, dead_time};
 }

@@ -18,9 +18,9 @@ LagPlant lag_plant(const RulePlant& plant, const Choices& choices, int n, double
     fail_precondition(
         kName, fmt::format("it needs a stable plant of real lags without zeros, and \"{}\" is none", plant.name));
   const int count = static_cast<int>(lags->size());
-  const int j = choices.has("j") ? choices.whole("j", 0, 8) : count;
-  if (j > count) fail_precondition(kName, fmt::format("--j {}: the plant has {} lags", j, count));
-  if (j == 0 && count > 0) fail_precondition(kName, "--j 0 is for a plant that is a dead time alone");
+  const int j = choices.has("lags") ? choices.whole("lags", 0, 8) : count;
+  if (j > count) fail_precondition(kName, fmt::format("--lags {}: the plant has {}", j, count));
+  if (j == 0 && count > 0) fail_precondition(kName, "--lags 0 is for a plant that is a dead time alone");
   const double share = n * Tf / 2;
   if (j == 0) return {0, plant.K, 0, plant.Td + 2 * share};
   const FewLags few = modified_half_rule(*lags, plant.Td, static_cast<std::size_t>(j));
@@ -75,7 +75,7 @@ std::vector<Rule> huba2021_rules() {
            "target e^(-Td s)/(Tc s + 1)^j; lags beyond j and the filter by the modified half rule",
            "Huba2021 (2)-(32), (36), (55), (72)-(74)",
            {{"Tc", "time constant of the target (without it: the dead time)", ""},
-            {"j", "lags to keep, 0 .. 8 (without it: all)", ""},
+            {"lags", "lags to keep, 0 .. 8 (without it: all)", ""},
             {"dead-time", "its quotient: taylor, pade1, pade2", "taylor"},
             {"prefilter", "none, step ((Tc s + 1)/(Tj s + 1))^j, smooth 1/(Tj s + 1)^order", "none"},
             {"order", "of the prefilter smooth (without it: j)", ""},

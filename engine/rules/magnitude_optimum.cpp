@@ -58,7 +58,7 @@ std::optional<NoiseGainDesign> magnitude_optimum_for_noise_gain(const Areas& pla
     if (!gains) return std::nullopt;
     const double next = filter_constant(gains->back(), m, n, K_HF, Ts);
     if (!std::isfinite(next) || !(next > 0)) return std::nullopt;
-    if (std::abs(next - Tf) <= 1e-14 * Tf) return NoiseGainDesign{next, *gains};
+    if (std::abs(next - Tf) <= 1e-11 * Tf) return NoiseGainDesign{next, *gains};
     Tf = next;
   }
   return std::nullopt;

@@ -66,17 +66,21 @@ std::optional<ReactionCurve> reaction_curve(const Polynomial& N, const Polynomia
   const Eigen::MatrixXd step = y.step(dt);
   Eigen::VectorXd x = y.start();
   int best = 0;
-  double steepest = std::abs(y.slope(x));
+  // Of a plant that first answers the wrong way, the slope towards where it ends.
+  const double N0 = N[0], D0 = *std::find_if(D.begin(), D.end(), [](double a) { return a != 0; });
+  const double direction = std::copysign(1.0, N0 * D0);
+  double steepest = direction * y.slope(x);
   for (int i = 1; i <= kPoints; ++i) {
     x = step * x;
     // A slope that only tends to its limit is reached at the end, within rounding.
-    if (std::abs(y.slope(x)) > steepest * (1 + 1e-12)) steepest = std::abs(y.slope(x)), best = i;
+    if (const double slope = direction * y.slope(x); slope > steepest + 1e-12 * std::abs(steepest))
+      steepest = slope, best = i;
   }
   if (best == kPoints && std::abs(y.curvature(x)) * dt * kPoints > 1e-6 * steepest) return std::nullopt;
   const double at = best == 0 || best == kPoints ? best * dt : turning_point(y, (best - 1) * dt, (best + 1) * dt);
   const Eigen::VectorXd there = y.state(at);
   const double slope = y.slope(there);
-  if (slope == 0) return std::nullopt;
+  if (!(direction * slope > 0)) return std::nullopt;
   return ReactionCurve{slope, at - y.output(there) / slope + dead_time, at + dead_time};
 }
 

@@ -1,6 +1,6 @@
 /// The process reaction curve of a plant that is known: the steepest tangent of its step response.
 ///
-///     R_1 = the slope largest in size, at t*;   L = t* - y(t*)/R_1, where the tangent meets the initial level
+///     R_1 = the slope largest towards the final value, at t*;   L = t* - y(t*)/R_1, where the tangent meets the initial level
 ///                                                                              [Dalen2018 1.7, ZieglerNichols1942]
 ///
 /// unit      R_1 in output per input and time, L in time

@@ -63,6 +63,68 @@ class Tune(ProgramTest):
         everything = self.run_program("tune", "--list", "--json").json
         self.assertEqual(len(everything), len(text.splitlines()))
 
+    def step_record(self, noise=0.0, end=40):
+        """Of 2 e^(-0.5 s)/(3 s + 1) after a step of 1.5 at t = 4, level 1."""
+        rows = ["t,u,y"]
+        for i in range(int(end / 0.05) + 1):
+            t = 0.05 * i
+            x = t - 4.5
+            y = 1 + (3 * (1 - math.exp(-x / 3)) if x > 0 else 0) + noise * ((i * 7919 % 101 - 50) / 50)
+            rows.append(f"{t:.2f},{1.5 if t > 3.999 else 0},{y:.12g}")
+        return self.write("step.csv", "\n".join(rows) + "\n")
+
+    def test_from_a_record_to_a_controller(self):
+        self.step_record()
+        answer = self.tune("simc-pi", "--plant", "fotd", "--response", "step.csv")
+        known = self.tune("simc-pi", "--plant", "fotd", "--K", "2", "--Td", "0.5", "--T1", "3")
+        self.assertAlmostEqual(answer["record"]["T1"], 3, places=4)
+        self.assertAlmostEqual(answer["record"]["Td"], 0.5, places=4)
+        self.assertAlmostEqual(answer["controller"]["standard"]["Kc"], known["controller"]["standard"]["Kc"], places=3)
+        self.assertAlmostEqual(answer["measures"]["IAE_d"], known["measures"]["IAE_d"], places=3)
+
+    def test_areas_of_a_record(self):
+        self.step_record(end=60)
+        answer = self.tune("ho-pid", "--plant", "self-regulating", "--response", "step.csv", "--m", "1", "--Tf", "0.1")
+        known = self.tune("ho-pid", "--plant", "fotd", "--K", "2", "--Td", "0.5", "--T1", "3", "--m", "1", "--Tf", "0.1")
+        self.assertAlmostEqual(answer["found"]["K_-1"] / known["found"]["K_-1"], 1, places=2)
+        self.assertIsNone(answer["measures"])
+
+    def test_a_record_alone_is_shown(self):
+        self.step_record(noise=0.02)
+        record = self.run_program("tune", "--plant", "fotd", "--response", "step.csv", "--json").json
+        self.assertAlmostEqual(record["residual"], 0.02 / math.sqrt(3), places=2)
+        self.assertEqual(record["remarks"], [])
+
+    def test_bad_records(self):
+        self.step_record(end=9)
+        result = self.run_program("tune", "ho-pid", "--plant", "self-regulating", "--response", "step.csv", "--Tf", "1")
+        self.assertEqual(result.code, 2)
+        self.assertIn("y has not come to rest at the end of the record", result.err)
+        self.write("bad.csv", "time,u,y\n0,0,0\n")
+        self.assert_fails(self.run_program("tune", "simc-pi", "--plant", "fotd", "--response", "bad.csv"), 2,
+                          'bad.csv:1: no column "t": the header must name t, u and y (it has time, u, y)')
+        self.assert_fails(self.run_program("tune", "simc-pi", "--plant", "fotd", "--response", "none.csv"), 2,
+                          "none.csv: No such file or directory")
+        self.assert_fails(self.run_program("tune", "simc-pi", "--plant", "fotd", "--K", "1", "--response", "bad.csv"), 2,
+                          "--K, --Td and --T1 have no place here: the plant comes from --response")
+
+    def test_rules_on_a_portrait(self):
+        self.small_portrait()
+        ask = ("query", "small.h5", "--minimize", "IAE_d", "--where", "Ms <= 4", "--rules", "--json", "--include-not-settled")
+        answer = self.run_program(*ask).json
+        rules = {rule["rule"]: rule for rule in answer["rules"]}
+        qrdp = rules["huba2022-qrdp"]
+        self.assertAlmostEqual(qrdp["settings"]["kappa"], 0.1247851303, places=9)
+        self.assertEqual(qrdp["admissible"], True)
+        self.assertEqual(qrdp["off_axes"], [])
+        self.assertAlmostEqual(qrdp["regret"], qrdp["objective"] / answer["optimum"]["objective"], places=12)
+        alone = self.run_program("simulate", "--plant", "dipdt", "--kappa", "0.1247851303442644", "--tau-i", "10.32317310326287",
+                                 "--delta", "0.504541802196353", "--horizon", "40", "--json").json
+        self.assertAlmostEqual(qrdp["objective"], alone["measures"]["IAE_d"], places=6)
+        self.assertFalse(rules["ho-pid"]["applicable"])
+        strict = self.run_program(*ask, "--where", "Ms <= 1.1").json
+        self.assertIn("Ms <= 1.1", {r["rule"]: r for r in strict["rules"]}["huba2022-qrdp"]["violated"])
+
     def test_wrong_input(self):
         cases = [
             (("huba2022-qrpd", *PLANT), 'unknown rule "huba2022-qrpd" (did you mean "huba2022-qrdp"?)'),

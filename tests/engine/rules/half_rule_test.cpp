@@ -13,7 +13,7 @@ TEST(HalfRule, FourEqualLags) {  // Huba2021 (85), (86), (89)-(91)
   const std::vector<double> four(4, 1.0);
   EXPECT_EQ(half_rule(four, 0, 1).lags, (std::vector<double>{1.5}));
   EXPECT_EQ(half_rule(four, 0, 1).dead_time, 2.5);
-  EXPECT_EQ(half_rule(four, 0, 2).lags, (std::vector<double>{1, 1.5}));
+  EXPECT_EQ(half_rule(four, 0, 2).lags, (std::vector<double>{1.5, 1}));
   EXPECT_EQ(half_rule(four, 0, 2).dead_time, 1.5);
   EXPECT_EQ(modified_half_rule(four, 0, 1).lags, (std::vector<double>{2.5}));
   EXPECT_EQ(modified_half_rule(four, 0, 2).lags, (std::vector<double>{1.5, 1.5}));

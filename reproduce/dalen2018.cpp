@@ -1,0 +1,447 @@
+/// The tables of Dalen2018.
+
+#include <array>
+#include <cmath>
+
+#include "engine/loop/loop_measures.h"
+#include "engine/loop/stability.h"
+#include "engine/reference/response.h"
+#include "engine/rules/delta_tuning.h"
+#include "engine/rules/field.h"
+#include "engine/rules/pareto_pi.h"
+#include "engine/rules/reaction_curve.h"
+#include "engine/sweep/method.h"
+#include "reproduce/loops.h"
+
+namespace portrait::reproduce {
+namespace {
+
+using rules::IntegratingPlant;
+using rules::LagDelayPlant;
+using rules::PiLoop;
+using rules::RulePlant;
+
+constexpr double kMs = 1.59;
+constexpr IntegratingPlant kUnit = {1, 1};
+
+MeasureRow margins_of(const RulePlant& plant, const StandardForm& form) {
+  MeasureRow m;
+  const OpenLoop open = open_loop(rules::general_loop(plant, rules::tuned(form)));
+  if (is_stable(open)) measure_loop(open, m);
+  return m;
+}
+
+// ---------------------------------------------------------------- rules as alpha and beta
+
+Numbers known_rules(const PublishedTable&) {
+  const RulePlant plant = rules::ipdt(1, 1);
+  const auto line = [&](const StandardForm& f) {
+    const MeasureRow m = margins_of(plant, f);
+    return row({f.Kc, f.Ti, f.Kc * f.Ti, rules::relative_delay_margin(f.Kc, f.Ti), m[Measure::Ms], m[Measure::GM]});
+  };
+  const StandardForm zn = rules::ziegler_nichols_pi(rules::ultimate(kUnit));
+  return {line(zn), line(rules::delta_tuning(kUnit, zn.Kc * zn.Ti, 1.6)),
+          line(rules::imc_pi(kUnit, std::sqrt(10.0))), line(rules::simc_pi(kUnit, 1))};
+}
+
+Numbers pade(const PublishedTable&) {
+  const double c = rules::pade_triple_root();
+  const StandardForm f = rules::pade_tuning(kUnit, c);
+  return {row({c, f.Kc * f.Ti})};
+}
+
+Numbers eq49(const PublishedTable&) {
+  return {row({margins_of(rules::ipdt(1, 1), rules::delta_tuning(kUnit, 2.5, 1.79))[Measure::PM]})};
+}
+
+Numbers references(const PublishedTable&) {
+  const PiLoop loop = rules::pi_loop(kUnit);
+  const auto disturbances = rules::pareto_pi(loop, kMs, 0);
+  const auto p = rules::pi_of_sensitivity(loop, kInf, kMs);
+  return {row({disturbances->least.IAE_vy, disturbances->least.IAE_vu, p->Kc, disturbances->Kp, disturbances->Ti})};
+}
+
+// ---------------------------------------------------------------- the plants of the examples
+
+const RulePlant& column() {  // (47)
+  static const RulePlant plant = lag_plant(34, {54, 0.5, 0.5}, 0);
+  return plant;
+}
+const RulePlant& submersible() {  // (48)
+  static const RulePlant plant = [] {
+    RulePlant p = lag_plant(-2.6158, {0.8131, 0.5}, 0, 0, {1, 2.299});
+    p.poles.push_back({1, 1.738 * 7.692, 7.692 * 7.692});
+    return p;
+  }();
+  return plant;
+}
+
+IntegratingPlant reaction(const RulePlant& plant) {
+  Polynomial N = plant.zeros, D{1};
+  for (double& a : N) a *= plant.K;
+  for (const Polynomial& p : plant.poles) D = product(D, p);
+  const rules::ReactionCurve curve = rules::reaction_curve(N, D, plant.Td).value();
+  return {curve.slope, curve.lag};
+}
+
+Numbers prc(const PublishedTable&) {
+  const IntegratingPlant four = reaction(column()), five = reaction(submersible());
+  return {row({four.k, four.tau}), row({five.k, five.tau})};
+}
+
+// ---------------------------------------------------------------- best method products: Tables 1, 3, 4, 5
+
+/// Everything at one cbar, delta = 1.6, k = tau = 1.
+std::vector<MeasureRow> along_cbar() {
+  std::vector<Setting> settings;
+  for (int i = 0; i <= 50; ++i) {
+    const StandardForm f = rules::delta_tuning(kUnit, 1.5 + 0.05 * i, 1.6);
+    settings.push_back({.kappa = f.Kc, .tau_i = f.Ti});
+  }
+  std::vector<SettingMeasured> found(settings.size());
+  measure_settings(Method::kernel, {Plant::ipdt, 0, Prefilter::none}, Horizon::until_settled(), std::nullopt,
+                   settings, found);
+  std::vector<MeasureRow> rows;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    rows.push_back(found[i].measures);
+    rows.back()[Measure::TV_uw] -= settings[i].kappa;  // the paper's TV leaves the first kick out
+  }
+  return rows;
+}
+
+template <typename Index>
+double best_cbar(const std::vector<MeasureRow>& rows, const Index& index) {
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (index(rows[i]) < index(rows[best])) best = i;
+  return 1.5 + 0.05 * static_cast<double>(best);
+}
+
+/// Both steps together, y of the input step being k tau times larger; T_1 in dead times.
+struct Together {
+  double gain, T1;
+
+  double ISE(const MeasureRow& m) const { return m[Measure::ISE_w] + gain * gain * m[Measure::ISE_d]; }
+  double ITSE(const MeasureRow& m) const {
+    return m[Measure::ITSE_w] + gain * gain * (m[Measure::ITSE_d] + T1 * m[Measure::ISE_d]);
+  }
+  double ITAE(const MeasureRow& m) const {
+    return m[Measure::ITAE_w] + gain * (m[Measure::ITAE_d] + T1 * m[Measure::IAE_d]);
+  }
+  double TV(const MeasureRow& m) const { return m[Measure::TV_uw] / gain + m[Measure::TV_ud]; }
+};
+Together together(std::string_view label) {
+  const double k = number_in_label(label, "k"), tau = number_in_label(label, "tau");
+  return {k * tau, 100 / tau};
+}
+
+double index_of(const std::vector<MeasureRow>& rows, Measure measure) {
+  return best_cbar(rows, [&](const MeasureRow& m) { return m[measure]; });
+}
+
+Numbers table3(const PublishedTable&) {
+  const auto rows = along_cbar();
+  return {row({index_of(rows, Measure::Ms), index_of(rows, Measure::IAE_d), index_of(rows, Measure::ITAE_d),
+               index_of(rows, Measure::ITAE_w), index_of(rows, Measure::IAE_w)})};
+}
+
+Numbers table4(const PublishedTable& table) {
+  const auto rows = along_cbar();
+  Numbers numbers;
+  for (const PrintedRow& r : table.rows) {
+    const Together both = together(r.label);
+    numbers.push_back(
+        row({index_of(rows, Measure::Ms), index_of(rows, Measure::IAE_d),
+             best_cbar(rows, [&](const MeasureRow& m) { return both.ITAE(m); }), index_of(rows, Measure::ITAE_d)}));
+  }
+  return numbers;
+}
+
+Numbers table5(const PublishedTable& table) {
+  const auto rows = along_cbar();
+  Numbers numbers;
+  for (const PrintedRow& r : table.rows) {
+    const Together both = together(r.label);
+    const auto best = [&](double (Together::*index)(const MeasureRow&) const) {
+      return best_cbar(rows, [&](const MeasureRow& m) { return (both.*index)(m); });
+    };
+    numbers.push_back(row({index_of(rows, Measure::ITAE_w), best(&Together::ITSE), best(&Together::ISE),
+                           best(&Together::TV), index_of(rows, Measure::IAE_w)}));
+  }
+  return numbers;
+}
+
+/// cbar that is least in the mean square of J(cbar, delta) less its least over cbar, delta = 1.1 .. 3.4.   [Dalen2018 (43)]
+Numbers table1(const PublishedTable& table) {
+  constexpr int kCbars = 61, kDeltas = 24;
+  std::vector<Setting> settings;
+  for (int d = 0; d < kDeltas; ++d)
+    for (int c = 0; c < kCbars; ++c) {
+      const StandardForm f = rules::delta_tuning(kUnit, 2 + 0.05 * c, 1.1 + 0.1 * d);
+      settings.push_back({.kappa = f.Kc, .tau_i = f.Ti});
+    }
+  std::vector<SettingMeasured> found(settings.size());
+  measure_settings(Method::kernel, {Plant::ipdt, 0, Prefilter::none}, Horizon::until_settled(), std::nullopt,
+                   settings, found);
+  Numbers numbers;
+  for (const PrintedRow& r : table.rows) {
+    const double s_r = number_in_label(r.label, "s_r");
+    const auto J = [&](int d, int c) {
+      const MeasureRow& m = found[static_cast<std::size_t>(d * kCbars + c)].measures;
+      return s_r * m[Measure::IAE_w] / 2.17 + (1 - s_r) * m[Measure::IAE_d] / 15.10;
+    };
+    std::vector<double> sums(kCbars, 0.0);
+    for (int d = 0; d < kDeltas; ++d) {
+      double least = kInf;
+      for (int c = 0; c < kCbars; ++c) least = std::min(least, J(d, c));
+      for (int c = 0; c < kCbars; ++c) sums[static_cast<std::size_t>(c)] += std::pow(J(d, c) - least, 2);
+    }
+    const auto best = std::min_element(sums.begin(), sums.end()) - sums.begin();
+    numbers.push_back(row({2 + 0.05 * static_cast<double>(best)}));
+  }
+  return numbers;
+}
+
+// ---------------------------------------------------------------- the examples: Tables 6, 8, 10, 12, 14
+
+/// What a column of these tables holds, from top to bottom.
+struct ColumnOfTen {
+  std::array<double, 10> values;
+};
+
+ColumnOfTen measured_column(const RulePlant& plant, const StandardForm& f, const rules::PiErrors& least) {
+  const rules::TunedMeasures found = rules::measured(plant, rules::tuned(f));
+  const MeasureRow& m = found.measures;
+  const double J = 0.5 * (m[Measure::IAE_w] / least.IAE_vy + m[Measure::IAE_d] / least.IAE_vu);
+  // The plant's own input: the disturbance adds its step, and the first kick of u is left out.
+  const double TV = m[Measure::TV_uw] - std::abs(f.Kc) + m[Measure::TV_ud] + 1;
+  return {{f.Kc, f.Ti, m[Measure::IAE_w], m[Measure::IAE_d], J, TV, m[Measure::GM], m[Measure::PM], m[Measure::DM],
+           m[Measure::Ms]}};
+}
+
+Numbers side_by_side(const std::vector<ColumnOfTen>& columns, const std::vector<ColumnOfTen>& corrected = {}) {
+  Numbers numbers;
+  for (std::size_t r = 0; r < 10; ++r) {
+    std::vector<Computed>& cells = numbers.emplace_back();
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      cells.push_back({columns[c].values[r], {}});
+      if (c < corrected.size()) cells.back().corrected = corrected[c].values[r];
+    }
+  }
+  return numbers;
+}
+
+StandardForm form_of(const rules::ParetoPi& p) { return {p.Kp, p.Ti, 0}; }
+
+/// The paper's own loop: hold of 0.1, the integral by Euler, IAE by trapezoids, steps at 0 and 50, 100 in all.
+std::array<double, 3> sampled_example2(const StandardForm& f) {
+  constexpr int kSteps = 1000, kDelay = 10, kInput = 500;
+  constexpr double dt = 0.1;
+  double y = 0, integral = 0, IAE_y = 0, IAE_u = 0, TV = 0, last = 0;
+  std::vector<double> u(kSteps + 1), error(kSteps + 1);
+  for (int i = 0; i <= kSteps; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double e = -(y + 1);
+    error[k] = std::abs(e), u[k] = f.Kc * (e + integral / f.Ti), integral += dt * e;
+    const double input = u[k] + (i >= kInput ? 1 : 0);
+    if (i > 0) TV += std::abs(input - last), (i <= kInput ? IAE_y : IAE_u) += dt / 2 * (error[k] + error[k - 1]);
+    last = input;
+    y += dt * ((i >= kDelay ? u[k - kDelay] : 0) + (i >= kDelay + kInput ? 1 : 0));
+  }
+  return {IAE_y, IAE_u, TV};
+}
+
+ColumnOfTen sampled_column(ColumnOfTen column, const StandardForm& f) {
+  const auto [IAE_y, IAE_u, TV] = sampled_example2(f);
+  column.values[2] = IAE_y, column.values[3] = IAE_u, column.values[5] = TV;
+  column.values[4] = 0.5 * (IAE_y / 2.17 + IAE_u / 15.10);
+  return column;
+}
+
+Numbers table6(const PublishedTable&) {
+  const RulePlant plant = rules::ipdt(1, 1);
+  const rules::ParetoPi po = rules::pareto_pi(rules::pi_loop(kUnit), kMs, 0.5).value();
+  const StandardForm forms[] = {rules::delta_tuning(kUnit, 2.5, 1.79), rules::simc_pi(kUnit, 1.24), form_of(po)};
+  const StandardForm rounded[] = {forms[0], forms[1], {0.41, 6.28, 0}};
+  std::vector<ColumnOfTen> columns, corrected;
+  for (std::size_t i = 0; i < 3; ++i) {
+    columns.push_back(measured_column(plant, forms[i], po.least));
+    corrected.push_back(sampled_column(measured_column(plant, rounded[i], po.least), rounded[i]));
+  }
+  return side_by_side(columns, corrected);
+}
+
+/// int_0^10 |y| after the input step: what a window that ends ten late counts to the wrong side.
+double first_ten(const LagDelayPlant& p, const StandardForm& f) {
+  const Loop loop{{Plant::fotd, 0, Prefilter::none},
+                  {.kappa = f.Kc * p.K, .tau_i = f.Ti / p.tau, .delta = 0, .tau_1 = p.T / p.tau}};
+  const reference::Response r = reference::simulate(loop, Horizon::fixed(3));
+  double sum = 0;
+  constexpr int kPoints = 2000;
+  for (int i = 0; i < kPoints; ++i)
+    sum += std::abs(reference::y_at(r.steps[reference::kDisturbance], (i + 0.5) * 2.5 / kPoints)) * 10 / kPoints;
+  return sum * p.K;
+}
+
+ColumnOfTen slipped_column(ColumnOfTen column, const LagDelayPlant& p, const StandardForm& f,
+                           const rules::PiErrors& least) {
+  const double slip = first_ten(p, f);
+  column.values[2] += slip, column.values[3] -= slip;
+  column.values[4] = 0.5 * (column.values[2] / least.IAE_vy + column.values[3] / least.IAE_vu);
+  return column;
+}
+
+constexpr LagDelayPlant kHeater = {5.7, 60, 4};
+
+Numbers table8(const PublishedTable&) {
+  const RulePlant plant = rules::jotd(kHeater.K, kHeater.tau, kHeater.T, 1);
+  const IntegratingPlant ipdt{kHeater.K / kHeater.T, kHeater.tau};
+  const rules::ParetoPi po = rules::pareto_pi(rules::pi_loop(kHeater), kMs, 0.5).value();
+  std::vector<ColumnOfTen> columns, corrected;
+  for (const StandardForm& f :
+       {rules::delta_tuning(ipdt, 2.5, 1.56), rules::simc_pi(kHeater, 1.10 * kHeater.tau), form_of(po)}) {
+    columns.push_back(measured_column(plant, f, po.least));
+    corrected.push_back(slipped_column(columns.back(), kHeater, f, po.least));
+  }
+  return side_by_side(columns, corrected);
+}
+
+const IntegratingPlant kColumn = {0.597, 0.923}, kSubmersible = {-0.145, 1.729};
+
+const rules::ParetoPi& column_front() {
+  static const rules::ParetoPi po = rules::pareto_pi(general_pi_loop(column(), kColumn), kMs, 0.5).value();
+  return po;
+}
+const rules::ParetoPi& submersible_front() {
+  static const rules::ParetoPi po =
+      rules::pareto_pi(general_pi_loop(submersible(), kSubmersible), kMs, 0.5).value();
+  return po;
+}
+
+Numbers table10(const PublishedTable&) {
+  const rules::ParetoPi& po = column_front();
+  const LagDelayPlant half{34, 54.25, 0.75};
+  std::vector<ColumnOfTen> columns, corrected;
+  for (const StandardForm& f :
+       {rules::delta_tuning(kColumn, 2.7, 1.63), rules::simc_pi(half, 1.33 * 0.75), form_of(po)})
+    columns.push_back(measured_column(column(), f, po.least));
+  for (const StandardForm& f : {rules::delta_tuning(kColumn, 2.5, 1.63195), rules::simc_pi(half, 1.0085)})
+    corrected.push_back(measured_column(column(), f, po.least));
+  return side_by_side(columns, corrected);
+}
+
+Numbers table12(const PublishedTable&) {
+  const rules::ParetoPi& po = submersible_front();
+  return side_by_side({measured_column(submersible(), rules::delta_tuning(kSubmersible, 2.5, 2.20), po.least),
+                       measured_column(submersible(), form_of(po), po.least)});
+}
+Numbers table14(const PublishedTable&) {
+  const rules::ParetoPi& po = submersible_front();
+  const IntegratingPlant slower{kSubmersible.k * 0.74, kSubmersible.tau};
+  return side_by_side({measured_column(submersible(), rules::delta_tuning(slower, 2.7, 2.7), po.least),
+                       measured_column(submersible(), form_of(po), po.least)});
+}
+
+// ---------------------------------------------------------------- distances from the front: Tables 2, 7, 9, 11, 13
+
+/// Mean over Ms of (J of the PI on the curve of cbar less J of the front)^2, J with the references of Ms = 1.59. The curve may
+/// be laid about another k and tau than the search's.                                                 [Dalen2018 (42)]
+struct Distances {
+  const PiLoop& loop;
+  std::vector<double> Ms;
+  rules::PiErrors least;
+  std::vector<double> front;
+
+  Distances(const PiLoop& a_loop, std::vector<double> grid) : loop(a_loop), Ms(std::move(grid)) {
+    least = rules::pareto_pi(loop, kMs, 0.5)->least;
+    for (const double peak : Ms) {
+      const rules::ParetoPi po = rules::pareto_pi(loop, peak, 0.5).value();
+      front.push_back(J(po.errors));
+    }
+  }
+  double J(const rules::PiErrors& e) const { return 0.5 * (e.IAE_vy / least.IAE_vy + e.IAE_vu / least.IAE_vu); }
+  /// `form` gives the PI of one Ms.
+  template <typename Form>
+  double of(const Form& form) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < Ms.size(); ++i) {
+      const StandardForm f = form(Ms[i]);
+      sum += std::pow(J(loop.errors(f.Kc, f.Ti)) - front[i], 2) / static_cast<double>(Ms.size());
+    }
+    return sum;
+  }
+  double of_cbar(double cbar) const {
+    return of([&](double peak) { return rules::pi_of_sensitivity(loop, cbar, peak).value(); });
+  }
+};
+
+std::vector<double> fine_grid() { return {1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2.0}; }
+std::vector<double> coarse_grid() { return {1.4, 1.6, 1.8}; }
+
+/// SIMC of a lag plant at a prescribed Ms, by its Tc.
+StandardForm simc_of_sensitivity(const PiLoop& loop, const LagDelayPlant& p, double Ms) {
+  double low = -0.5 * p.tau, high = 20 * p.tau;
+  for (int i = 0; i < 60; ++i) {
+    const double Tc = 0.5 * (low + high);
+    const StandardForm f = rules::simc_pi(p, Tc);
+    (loop.Ms(f.Kc, f.Ti) < Ms ? high : low) = Tc;
+  }
+  return rules::simc_pi(p, high);
+}
+
+Numbers table2(const PublishedTable&) {
+  const PiLoop loop = rules::pi_loop(kUnit);
+  const Distances d(loop, fine_grid());
+  return {row({d.of_cbar(2.5), d.of_cbar(2.7), d.of_cbar(4)})};
+}
+Numbers table7(const PublishedTable&) {
+  const PiLoop loop = rules::pi_loop(kHeater);
+  const Distances d(loop, fine_grid());
+  return {row(
+      {d.of_cbar(2.5), d.of_cbar(2.7), d.of([&](double Ms) { return simc_of_sensitivity(loop, kHeater, Ms); })})};
+}
+Numbers table9(const PublishedTable&) {
+  const PiLoop loop = general_pi_loop(column(), kColumn);
+  const Distances d(loop, coarse_grid());
+  return {row({d.of_cbar(2.5), d.of_cbar(2.7), d.of([&](double Ms) {
+                 return simc_of_sensitivity(loop, {34, 54.25, 0.75}, Ms);
+               })})};
+}
+
+const Distances& submersible_distances() {
+  static const PiLoop loop = general_pi_loop(submersible(), kSubmersible);
+  static const Distances d(loop, coarse_grid());
+  return d;
+}
+Numbers table11(const PublishedTable&) {
+  const Distances& d = submersible_distances();
+  return {row({d.of_cbar(2.5), d.of_cbar(2.7), d.of_cbar(4)})};
+}
+/// zeta at a prescribed Ms: Ti stays, Kp falls with zeta.
+Numbers table13(const PublishedTable&) {
+  const Distances& d = submersible_distances();
+  const auto by_zeta = [&](double Ms) {
+    double low = 0.2, high = 3;
+    for (int i = 0; i < 60; ++i) {
+      const double zeta = 0.5 * (low + high);
+      const StandardForm f = rules::delta_tuning({kSubmersible.k * zeta, kSubmersible.tau}, 2.7, 2.7);
+      (d.loop.Ms(f.Kc, f.Ti) < Ms ? high : low) = zeta;
+    }
+    return rules::delta_tuning({kSubmersible.k * high, kSubmersible.tau}, 2.7, 2.7);
+  };
+  return {row({d.of_cbar(2.5), d.of(by_zeta)})};
+}
+
+}  // namespace
+
+std::vector<Maker> dalen2018_makers() {
+  return {{"dalen2018/rules", known_rules},     {"dalen2018/pade", pade},       {"dalen2018/eq49", eq49},
+          {"dalen2018/references", references}, {"dalen2018/prc", prc},         {"dalen2018/table1", table1},
+          {"dalen2018/table2", table2},         {"dalen2018/table3", table3},   {"dalen2018/table4", table4},
+          {"dalen2018/table5", table5},         {"dalen2018/table6", table6},   {"dalen2018/table7", table7},
+          {"dalen2018/table8", table8},         {"dalen2018/table9", table9},   {"dalen2018/table10", table10},
+          {"dalen2018/table11", table11},       {"dalen2018/table12", table12}, {"dalen2018/table13", table13},
+          {"dalen2018/table14", table14}};
+}
+
+}  // namespace portrait::reproduce
