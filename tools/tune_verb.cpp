@@ -228,7 +228,11 @@ int tune(const TuneArguments& a) {
     if (!text.empty()) given[name] = text;
   const rules::Tuned tuned = rules::tune(rule, plant, given);
   Answer answer{rule, plant, tuned, recorded ? &*recorded : nullptr, rules::tuned_loop(plant, tuned), {}};
-  if (!plant.measured) answer.measured = rules::measured(plant, tuned);
+  try {
+    if (!plant.measured) answer.measured = rules::measured(plant, tuned);
+  } catch (const std::runtime_error& error) {
+    print_message(fmt::format("note: the loop was not measured: {}", error.what()));
+  }
   if (a.json)
     print_json(json_answer(answer));
   else

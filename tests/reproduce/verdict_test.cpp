@@ -1,5 +1,7 @@
 #include "reproduce/verdict.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace portrait::reproduce {

@@ -32,7 +32,9 @@ TEST(PlantFit, GivesThePlantBackWithoutNoise) {
       const PlantFit fit = fitted_plant(record_of(p, 30, twice, 0), p.family, false);
       EXPECT_NEAR(fit.plant.K / p.K, 1, 1e-6);
       EXPECT_NEAR(fit.plant.Td / p.Td, 1, 1e-6);
-      if (p.family == Plant::fotd) EXPECT_NEAR(fit.plant.T1 / p.T1, 1, 1e-6);
+      if (p.family == Plant::fotd) {
+        EXPECT_NEAR(fit.plant.T1 / p.T1, 1, 1e-6);
+      }
       EXPECT_NEAR(fit.level, 7, 1e-5);
       EXPECT_LT(fit.share, 1e-12);
     }
@@ -60,7 +62,7 @@ TEST(PlantFit, AWrongFamilyIsToldByWhatItLeaves) {
   ASSERT_FALSE(poor.remarks.empty());
   EXPECT_TRUE(poor.remarks[0].starts_with("the model leaves more than noise"));
   Record nothing = r;
-  for (std::size_t i = 0; i < nothing.size(); ++i) nothing.y[i] = (i * 7919 % 101 - 50) / 50.0;
+  for (std::size_t i = 0; i < nothing.size(); ++i) nothing.y[i] = static_cast<double>(i * 7919 % 101) / 50.0 - 1;
   EXPECT_THROW(fitted_plant(nothing, Plant::fotd, false), InputError);
 }
 

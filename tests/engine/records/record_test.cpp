@@ -1,5 +1,7 @@
 #include "engine/records/record.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "engine/base/error.h"
