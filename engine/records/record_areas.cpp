@@ -58,7 +58,9 @@ double change_of_input(const Record& r, std::size_t tail) {
     least = std::min(least, r.u[i]), most = std::max(most, r.u[i]);
   }
   const double dU = end - r.u[0];
-  if (std::abs(dU) < 1e-9 * std::abs(end) || most - least > 0.1 * std::abs(dU))
+  double largest = 0;
+  for (const double u : r.u) largest = std::max(largest, std::abs(u - r.u[0]));
+  if (std::abs(dU) < 1e-9 * largest || most - least > 0.1 * std::abs(dU))
     throw InputError(
         fmt::format("u must end on a new level: it begins at {:.6g} and lies between {:.6g} and {:.6g} at the end",
                     r.u[0], least, most));

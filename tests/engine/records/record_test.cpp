@@ -61,8 +61,10 @@ TEST(Record, MissingSamplesAreToldOf) {
 
 TEST(Record, NoiseAndDriftBeforeTheChange) {
   std::string text;
+  unsigned state = 1;
   for (int i = 0; i < 400; ++i) {
-    const double noise = (i * 7919 % 101 - 50) / 50.0 * 0.01;  // uniform within 0.01
+    state = state * 1664525u + 1013904223u;
+    const double noise = (state / 4294967296.0 * 2 - 1) * 0.01;  // uniform within 0.01
     text += std::to_string(i) + "," + (i < 200 ? "0" : "1") + "," + std::to_string(3 + 0.5 * i + noise) + "\n";
   }
   const Quality q = quality(read_record(text, "r.csv"));
