@@ -1,5 +1,6 @@
 #include "portraits/disk.h"
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -95,8 +96,17 @@ void remove(const std::filesystem::path& path) {
   if (!may("remove") || (::remove(path.c_str()) != 0 && errno != ENOENT)) failed(path, "remove it");
 }
 
-void write_whole_file(const std::filesystem::path& path, const std::string& bytes) {
-  const std::filesystem::path temporary = path.string() + ".tmp";
+namespace {
+
+/// Of no other process, on this machine or another with the same disk.
+std::filesystem::path temporary_of(const std::filesystem::path& path) {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return fmt::format("{}.{}-{}.tmp", path.string(), getpid(), host.data());
+}
+
+std::filesystem::path synced_temporary(const std::filesystem::path& path, const std::string& bytes) {
+  std::filesystem::path temporary = temporary_of(path);
   {
     const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
     if (file.number() < 0) failed(temporary, "create it");
@@ -105,8 +115,24 @@ void write_whole_file(const std::filesystem::path& path, const std::string& byte
   }
   if (read_whole_file(temporary) != bytes)
     throw StoreError(fmt::format("{}: the disk does not give back what was written to it", temporary.string()));
-  disk::rename(temporary, path);
+  return temporary;
+}
+
+}  // namespace
+
+void write_whole_file(const std::filesystem::path& path, const std::string& bytes) {
+  disk::rename(synced_temporary(path, bytes), path);
   sync_directory(directory_of(path));
+}
+
+bool write_new_file(const std::filesystem::path& path, const std::string& bytes) {
+  const std::filesystem::path temporary = synced_temporary(path, bytes);
+  const bool is_new = rename_unless_there(temporary, path);
+  if (is_new)
+    sync_directory(directory_of(path));
+  else
+    disk::remove(temporary);
+  return is_new;
 }
 
 std::string read_whole_file(const std::filesystem::path& path) {

@@ -26,8 +26,10 @@ void rename(const std::filesystem::path& from, const std::filesystem::path& to);
 bool rename_unless_there(const std::filesystem::path& from, const std::filesystem::path& to);
 void remove(const std::filesystem::path& path);
 
-/// A file with these bytes, synced under a temporary name (PATH.tmp), read back, renamed, and its directory synced.
+/// A file with these bytes, synced under a temporary name (PATH.PID-HOST.tmp), read back, renamed, and its directory
+/// synced: in the place of another, or only where there is none (then false says that there was one).
 void write_whole_file(const std::filesystem::path& path, const std::string& bytes);
+bool write_new_file(const std::filesystem::path& path, const std::string& bytes);
 /// Everything in a file. Throws StoreError when it cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
 

@@ -26,7 +26,7 @@ struct FileName {
 
 /// Nothing for a file that is not of a shard.
 std::optional<FileName> parsed(const std::string& name) {
-  static const std::regex pattern(R"((\d{1,9})-of-(\d{1,9})(?:\.(\d{1,9}))?\.(\w+)(?:\.tmp)?)");
+  static const std::regex pattern(R"((\d{1,9})-of-(\d{1,9})(?:\.(\d{1,9}))?\.(\w+)(?:\..+\.tmp)?)");
   std::smatch found;
   if (!std::regex_match(name, found, pattern)) return std::nullopt;
   return FileName{{std::stoi(found[1]), std::stoi(found[2])},
@@ -106,10 +106,13 @@ void RunFolder::remove(const Shard& shard) const {
 }
 
 void RunFolder::remove_if_empty() const {
-  for (const auto& entry : std::filesystem::directory_iterator(path_))
-    if (entry.path() != manifest() && entry.path() != manifest().string() + ".tmp") return;
-  disk::remove(manifest().string() + ".tmp");
-  disk::remove(manifest());
+  const std::string manifest_name = manifest().filename().string();
+  std::vector<std::filesystem::path> manifests;  // and what a killed process left of its writing
+  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+    if (!entry.path().filename().string().starts_with(manifest_name)) return;
+    manifests.push_back(entry.path());
+  }
+  for (const auto& path : manifests) disk::remove(path);
   disk::remove(path_);
 }
 

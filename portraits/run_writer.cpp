@@ -51,7 +51,7 @@ RunWriter::~RunWriter() {
   try {
     if (lock_) folder_.remove(shard_);
     lock_.reset();
-    if (folder_.exists()) folder_.remove_if_empty();
+    if (shard_.count == 1 && folder_.exists()) folder_.remove_if_empty();  // other shards may be about to begin
   } catch (const std::exception&) {
   }
 }
@@ -61,12 +61,7 @@ RunWriter::~RunWriter() {
 void RunWriter::begin_folder(const RunManifest& manifest, RunStart start) {
   if (!disk::may("mkdir") || (mkdir(folder_.path().c_str(), 0777) != 0 && errno != EEXIST))
     disk::failed(folder_.path(), "create the folder");
-  try {
-    lock_ = std::make_unique<RunLock>(folder_.file_of(shard_, "lock"));
-  } catch (...) {
-    folder_.remove_if_empty();
-    throw;
-  }
+  lock_ = std::make_unique<RunLock>(folder_.file_of(shard_, "lock"));
   if (start == RunStart::replace)
     for (const ShardState& shard : folder_.shards(fingerprint_))
       if (shard.shard == shard_ || (shard_.count == 1 && !shard.writer)) folder_.remove(shard.shard);
@@ -75,16 +70,14 @@ void RunWriter::begin_folder(const RunManifest& manifest, RunStart start) {
 
 /// The first of several shards writes it; the others must be of the same run.
 void RunWriter::keep_manifest(const RunManifest& manifest) {
-  if (std::filesystem::exists(folder_.manifest())) {
-    const RunManifest kept = read_manifest(folder_.manifest());
-    const std::string differs = difference(kept, manifest);
-    if (differs.empty()) return;
-    bool anything = false;
-    for (const ShardState& shard : folder_.shards(fingerprint(kept)))
-      anything = anything || !shard.batches.empty() || (shard.writer && shard.shard != shard_);
-    if (anything)
+  if (!std::filesystem::exists(folder_.manifest()) && disk::write_new_file(folder_.manifest(), json_text(manifest)))
+    return;
+  const RunManifest kept = read_manifest(folder_.manifest());
+  const std::string differs = difference(kept, manifest);
+  if (differs.empty()) return;
+  for (const ShardState& shard : folder_.shards(fingerprint(kept)))
+    if (!shard.batches.empty() || (shard.writer && shard.shard != shard_))
       throw InputError(fmt::format("{} is of another run (--force throws it away):{}", folder_.path().string(), differs));
-  }
   disk::write_whole_file(folder_.manifest(), json_text(manifest));
 }
 

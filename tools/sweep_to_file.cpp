@@ -116,10 +116,10 @@ bool is_done(const std::filesystem::path& output, const Grid& grid) {
 
 // ---------------------------------------------------------------- the run
 
-/// Stored before it goes on, whatever stops it.
-SweepOutcome swept(const SweepJob& job, RunWriter& run) try {
+/// What is not about to become a portrait is stored, whatever stopped it.
+SweepOutcome swept(const SweepJob& job, RunWriter& run, const Shard& shard) try {
   const SweepOutcome outcome = sweep(job);
-  if (!outcome.complete || !run.grid_is_complete()) run.commit();
+  if (!outcome.complete || shard.count > 1) run.commit();
   return outcome;
 } catch (const StoreError&) {
   throw;  // no use in storing more
@@ -160,7 +160,7 @@ int sweep_to_file(const SweepArguments& a, const std::string& command_line, cons
   job.progress = [&](std::uint64_t done) { progress.update(done); };
   job.stop = &interrupt.requested();
 
-  const SweepOutcome outcome = swept(job, run);
+  const SweepOutcome outcome = swept(job, run, shard);
   progress.finish();
   if (!outcome.complete) return stopped(run, command_line, grid);
   if (shard.count == 1) run.finish({.wall_seconds = outcome.seconds, .threads = outcome.threads}, existing);

@@ -24,7 +24,7 @@ SlurmdPort={node_port}
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/munge
-AuthInfo=socket={run}/munge.socket
+AuthInfo=socket={run}/munge.socket,cred_expire=5
 CredType=cred/munge
 StateSaveLocation={run}/state
 SlurmdSpoolDir={run}/spool
@@ -42,7 +42,6 @@ ReturnToService=2
 SchedulerParameters=bf_interval=1,sched_interval=1
 KillWait=5
 MinJobAge=3600
-RequeueExit=5
 NodeName={host} NodeAddr=127.0.0.1 CPUs={cpus} State=UNKNOWN
 PartitionName=p Nodes={host} Default=YES MaxTime=INFINITE State=UP
 """
