@@ -3,7 +3,7 @@
 /// has, since what happens in any lane of a pack is done to all of them.
 ///
 /// counts    a + b, a - b, a b, a/b, sqrt, min, max and a < b as one operation, mul_add as two; changes of sign,
-///           |a|, select and masks as none
+///           |a|, select, masks and the moving of lanes as none
 #pragma once
 
 namespace portrait::PORTRAIT_ISA_NAME {
@@ -94,7 +94,17 @@ inline Mask select(Mask m, Mask a, Mask b) { return (m & a) | but_not(b, m); }
 inline unsigned bits(Mask m) { return m.m; }
 inline bool any(Mask m) { return m.m != 0; }
 
-inline Mask all_lanes() { return Mask::from((1u << kLanes) - 1); }
+inline constexpr unsigned kAllLanes = (1u << kLanes) - 1;
+inline Mask all_lanes() { return Mask::from(kAllLanes); }
 inline Mask operator!(Mask m) { return but_not(all_lanes(), m); }
+inline unsigned negative_bits(Lanes a) {
+  unsigned m = 0;
+  for (int i = 0; i < kLanes; ++i) m |= (__builtin_signbit(a.v[i]) != 0 ? 1u : 0u) << i;
+  return m;
+}
+inline void gather_lanes(Lanes a, unsigned lanes, double* to) {
+  for (int i = 0; i < kLanes; ++i)
+    if ((lanes >> i & 1u) != 0) *to++ = a.v[i];
+}
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

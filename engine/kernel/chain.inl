@@ -3,9 +3,9 @@
 ///     v = Q_n h      u = -(kappa v + (kappa/tau_i) int v + delta v')     (n = 0: v' = y')
 ///     dipdt  z'' = u + d        ipdt  z' = u + d        fotd  tau_1 z' + z = u + d
 ///
-/// One pass over the coefficients, from the highest down: the back substitution of the last lag gives v', and each
-/// integration follows one coefficient behind what it integrates, so that nothing is loaded twice. The meters' sums are
-/// taken on the way.
+/// One pass over the coefficients, from the highest down: the back substitution of the last lag gives its highest
+/// derivative, v and the others follow, and each integration one coefficient behind what it integrates, so that nothing is
+/// loaded twice. The meters' sums are taken on the way. `degree`: that of the series in use, kDegree or less.
 #pragma once
 
 #include "engine/kernel/filter.inl"
@@ -21,9 +21,9 @@ class Integration {
   explicit Integration(const IntegralWeights& weights) : weights_(weights) {}
 
   Lanes give(int k, Lanes f) {
-    const Lanes here = f * Lanes(weights_.of[k]), integral = here - two_above_;
+    const Lanes weight = weights_.of[k], integral = mul_add(f, weight, -two_above_);
     two_above_ = above_;
-    above_ = here;
+    above_ = f * weight;
     return integral;
   }
   Lanes last(Lanes start) const { return start + (above_ - two_above_); }
@@ -40,59 +40,93 @@ class Chain {
   Lanes sum_rest, v_rest, v1_rest, v2_rest, u1_rest;  ///< at least the sums of |c_k|, k >= 1
   ErrorSums of_sum;
 
+  /// `extra`: derivatives of v beyond v'' that are asked for.
   void begin(const kernel::Pack& pack, int extra) {
     extra_ = extra;
-    tau_f_ = Lanes::from(pack.tau_f), tau_1_ = Lanes::from(pack.tau_1);
-    if (filtered) filter_.begin(pack.n, tau_f_);
-    if (kind == kernel::PlantKind::fotd) plant_rate_ = Lanes(1.0) / tau_1_;
+    tau_1_ = Lanes::from(pack.tau_1);
+    if (filtered) filter_.begin(pack.n, Lanes::from(pack.tau_f), kLag ? 0 : 1 + extra, 2 + extra);
+    if (kLag) plant_rate_ = Lanes(1.0) / tau_1_;
     kappa_ = -Lanes::from(pack.kappa), integral_gain_ = -Lanes::from(pack.integral_gain);
     delta_ = -Lanes::from(pack.delta);
     integral_ = z_ = z1_ = Lanes(0.0);
   }
 
+  /// The first panel on which h is not 0: h may jump at its start.
+  void enter(const Derivatives& h) {
+    if (filtered) filter_.enter(h);
+  }
+
+  /// From now on series end at `degree`.
+  void cut_at(int degree) {
+    Series* const all[] = {&v, &v1, &v2, &v3, &v4, &sum};
+    for (Series* const f : all) set_zero_above(*f, degree);
+  }
+
   /// `h1`: h'. The next dead time's y comes in place of `z`; u and u' lie among its derivatives, d = `load` not yet added.
+  template <int degree>
   void run(const Panel& panel, Derivatives h, const Series& h1, Output& z) {
-    if constexpr (filtered) {
-      h = filter_.all_but_last(panel.filter, panel.half, h, extra_);
-      filter_.eliminate(panel.filter, *h.at[0], v1);
+    if constexpr (!filtered) {
+      if (extra_ > 0) copy(v3, *h.at[3]);
+      pass<degree, false>(panel, h, h1, z);
+    } else {
+      run_filtered<degree>(panel, h, h1, z);
     }
-    keep_higher(h);
-    pass(panel, h, h1, z);
-    if constexpr (filtered) {
-      filter_.advance_last(panel.half, v1[0]);
-      if (extra_ > 0) filter_.set_next(v3, h2_, v2);
-      if (extra_ > 1) filter_.set_next(v4, h3_, v3);
-    }
-    if constexpr (kind == kernel::PlantKind::fotd) step_lag(panel, z);
+    if constexpr (kLag) step_lag<degree>(panel, z);
   }
 
   Lanes load = 1.0;  ///< d
 
  private:
-  /// The pass writes where h'' and the third derivative are.
-  void keep_higher(const Derivatives& h) {
-    if (!filtered && extra_ > 0) copy(v3, *h.at[3]);
-    if (filtered && extra_ > 0) copy(h2_, *h.at[2]);
-    if (filtered && extra_ > 1) copy(h3_, *h.at[3]);
+  static constexpr bool kLag = kind == kernel::PlantKind::fotd;
+
+  template <int degree>
+  void run_filtered(const Panel& panel, Derivatives h, const Series& h1, Output& z) {
+    h = filter_.template all_but_last<degree>(panel.filter, panel.half, h);
+    Series& solved = kLag ? v1 : extra_ == 0 ? v2 : extra_ == 1 ? v3 : v4;
+    filter_.template eliminate<degree>(panel.filter, h, solved);
+    if (kLag || extra_ == 0) {
+      pass<degree, false>(panel, h, h1, z);
+      if (kLag && extra_ > 0) filter_.template set_above<degree>(v3, *h.at[2], v2);
+    } else {
+      find_higher<degree>(panel, h, solved);
+      pass<degree, true>(panel, h, h1, z);
+    }
+    filter_.advance_last(panel.half, solved[0]);
   }
 
-  /// v, v', v'' of coefficient k.
+  /// v'' and above, before the pass writes where h'' and the third derivative are.
+  template <int degree>
+  void find_higher(const Panel& panel, const Derivatives& h, Series& highest) {
+    Lanes above = 0.0;
+    for (int k = degree; k >= 0; --k) highest[k] = above = panel.filter.substitute(highest, k, above);
+    if (extra_ > 1) filter_.template set_below<degree>(v3, *h.at[3], v4);
+    filter_.template set_below<degree>(v2, *h.at[2], v3);
+  }
+
+  /// v, v', v'' of coefficient k; what u' takes for v'.
   struct Filtered {
     Lanes v, v1, v2, slope;
   };
 
-  Filtered filtered_at(int k, const Panel& panel, const Derivatives& h, const Series& h1, Lanes above) {
-    if constexpr (filtered) {
-      const Lanes w = filter_.substitute(panel.filter, v1, k, above);
-      return {mul_sub_from(tau_f_, w, (*h.at[0])[k]), w, filter_.next((*h.at[1])[k], w), w};
+  /// `known`: v'' has been found; else v2, or v1 of a lag, holds what elimination left.
+  template <bool known>
+  Filtered filtered_at(int k, const Panel& panel, const Derivatives& h, const Series& h1, const Filtered& above) {
+    if constexpr (filtered && kLag) {
+      const Lanes slope = panel.filter.substitute(v1, k, above.v1);
+      return {filter_.below((*h.at[0])[k], slope), slope, filter_.above((*h.at[1])[k], slope), slope};
+    } else if constexpr (filtered) {
+      const Lanes w = known ? v2[k] : panel.filter.substitute(v2, k, above.v2);
+      const Lanes slope = filter_.below((*h.at[1])[k], w);
+      return {filter_.below((*h.at[0])[k], slope), slope, w, slope};
     }
     return {(*h.at[0])[k], (*h.at[1])[k], (*h.at[2])[k], h1[k]};
   }
 
+  template <int degree, bool known>
   void pass(const Panel& panel, const Derivatives& h, const Series& h1, Output& z) {
     Integration of_v(panel.weights), of_u(panel.weights), of_z1(panel.weights);
     Rest rest_v2, rest_u1;
-    ErrorSums sums, z_sums;
+    ErrorSumsTo<degree> sums, z_sums;
     Filtered above{Lanes(0.0), Lanes(0.0), Lanes(0.0), Lanes(0.0)};
     Series &u = plant_input<kind>(z), &u1 = plant_input_slope<kind>(z);
 
@@ -102,18 +136,18 @@ class Chain {
       u[k] = input;
       if constexpr (kind == kernel::PlantKind::dipdt) {
         const Lanes z1 = of_u.give(k, input + extra_load);
-        if (k < kDegree) drive_double(k + 1, z1, of_z1, z_sums, z);
+        if (k < degree) drive_double<degree>(k + 1, z1, of_z1, z_sums, z);
       } else if constexpr (kind == kernel::PlantKind::ipdt) {
         const Lanes y = of_u.give(k, input + extra_load);
-        if (k < kDegree) z.y[k + 1] = y, z_sums.add(k + 1, y);
+        if (k < degree) z.y[k + 1] = y, z_sums.add(k + 1, y);
       }
     };
 
 #pragma GCC unroll 16
-    for (int k = kDegree; k >= 0; --k) {
-      const Filtered here = filtered_at(k, panel, h, h1, above.v1);
+    for (int k = degree; k >= 0; --k) {
+      const Filtered here = filtered_at<known>(k, panel, h, h1, above);
       const Lanes integral = of_v.give(k, here.v);
-      if (k < kDegree) {
+      if (k < degree) {
         sum[k + 1] = integral;
         sums.add(k + 1, integral);
         act(k + 1, integral, Lanes(0.0));
@@ -127,8 +161,8 @@ class Chain {
     sum[0] = of_v.last(integral_);
     integral_ = mul_add(Lanes(2 * panel.half), above.v, integral_);
     act(0, sum[0], load);
-    finish(panel, of_u, of_z1, z_sums, z);
-    of_sum = sums;
+    finish<degree>(panel, of_u, of_z1, z_sums, z);
+    of_sum = sums.sums;
     v2_rest = rest_v2.sum, u1_rest = rest_u1.sum;
     bound_rests(panel.half, z);
   }
@@ -138,7 +172,7 @@ class Chain {
     v1_rest = filtered ? rest_of_integral(half, v2[0], v2_rest) : rest_bound(v1, 1);
     v_rest = filtered ? rest_of_integral(half, v1[0], v1_rest) : rest_bound(v, 1);
     sum_rest = rest_of_integral(half, v[0], v_rest);
-    if constexpr (kind == kernel::PlantKind::fotd) return;
+    if constexpr (kLag) return;
     const Lanes u_rest = rest_of_integral(half, plant_input_slope<kind>(z)[0], u1_rest);
     const Lanes driven = rest_of_integral(half, plant_input<kind>(z)[0] + load, u_rest);
     z.slope_rest = kind == kernel::PlantKind::dipdt ? driven : u_rest;
@@ -146,14 +180,16 @@ class Chain {
   }
 
   /// z1_k of the double integrator, and z_{k+1}.
-  static void drive_double(int k, Lanes z1, Integration& of_z1, ErrorSums& sums, Output& z) {
+  template <int degree>
+  static void drive_double(int k, Lanes z1, Integration& of_z1, ErrorSumsTo<degree>& sums, Output& z) {
     z.y1[k] = z1;
     const Lanes y = of_z1.give(k, z1);
-    if (k < kDegree) z.y[k + 1] = y, sums.add(k + 1, y);
+    if (k < degree) z.y[k + 1] = y, sums.add(k + 1, y);
   }
 
   /// The first coefficients, with the states at the panel's start, and the states at its end.
-  void finish(const Panel& panel, Integration& of_u, Integration& of_z1, ErrorSums& sums, Output& z) {
+  template <int degree>
+  void finish(const Panel& panel, Integration& of_u, Integration& of_z1, ErrorSumsTo<degree>& sums, Output& z) {
     [[maybe_unused]] const Lanes length = 2 * panel.half;
     [[maybe_unused]] const Lanes mean = plant_input<kind>(z)[0] + load;
     if constexpr (kind == kernel::PlantKind::dipdt) {
@@ -167,17 +203,19 @@ class Chain {
       z.y[0] = of_u.last(z_);
       z_ = mul_add(length, mean, z_);
     }
-    if constexpr (kind != kernel::PlantKind::fotd) z.sums = sums;
+    if constexpr (!kLag) z.sums = sums.sums;
   }
 
   /// fotd: z' by the lag's solver, z = u + d - tau_1 z', z'' = (u' - z')/tau_1.
+  template <int degree>
   void step_lag(const Panel& panel, Output& z) {
     z.u[0] += load;
-    panel.plant.eliminate(z.y1, z.u, z_);
+    panel.plant.eliminate<degree>(z.y1, z.u, z_);
     Rest rest;
-    ErrorSums sums;
+    ErrorSumsTo<degree> sums;
     Lanes above = 0.0;
-    for (int k = kDegree; k >= 0; --k) {
+#pragma GCC unroll 16
+    for (int k = degree; k >= 0; --k) {
       z.y1[k] = above = panel.plant.substitute(z.y1, k, above);
       z.y[k] = mul_sub_from(tau_1_, above, z.u[k]);
       z.y2[k] = plant_rate_ * (z.u1[k] - above);
@@ -187,13 +225,12 @@ class Chain {
     z_ = mul_add(Lanes(2 * panel.half), z.y1[0], z_);
     z.slope_rest = rest.sum;
     z.rest = rest_of_integral(panel.half, above, rest.sum);
-    z.sums = sums;
+    z.sums = sums.sums;
   }
 
   Filter filter_;
-  Series h2_, h3_;
   int extra_ = 0;
-  Lanes tau_f_, tau_1_, plant_rate_;
+  Lanes tau_1_, plant_rate_;
   Lanes kappa_, integral_gain_, delta_;  ///< times -1
   Lanes integral_, z_, z1_;
 };

@@ -1,18 +1,19 @@
 /// Integrals of the error e: |e|, e^2, t |e|, t e^2.
 ///
-/// Where e may change its sign the lane alone is copied to a queue, as in shape_meter.inl; what the queue finds is summed
+/// Where e may change its sign the lane alone goes to a queue, as in shape_meter.inl; what the queue finds is summed
 /// apart, lane by lane in order of time.
 #pragma once
 
 #include "engine/kernel/sums.inl"
+#include "engine/kernel/waiting.inl"
 #include "engine/kernel/zeros.inl"
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
-/// An error on a panel: offset + scale f, with at least the sum of |c_k|, k >= 1, and the sums over f's coefficients.
+/// What the error is made of on a panel, with at least the sum of |c_k|, k >= 1, and the sums over f's coefficients.
 struct Error {
   const Series& f;
-  Lanes offset, scale, rest;
+  Lanes rest;
   const ErrorSums& sums;
 };
 
@@ -21,49 +22,51 @@ class ErrorMeter;
 /// Panels of single lanes on which the error may change its sign.
 class SignQueue {
  public:
-  SignQueue() {
-    set_zero(e_);
-    part_ = {Lanes(0.0), Lanes(1.0)};
-    iae_ = itae_ = Lanes(0.0);
+  void push(ErrorMeter& meter, unsigned lanes, const Series& f, double middle, double half);
+  void flush() {
+    if (size_ > 0) search(size_);
   }
-  void push(ErrorMeter& meter, int lane, const Error& error, double middle, double half);
-  void flush();
 
  private:
   struct Visitor;
+  void search(int slots);
 
-  Series e_;
-  Part part_;
+  WaitingSeries e_;
+  WaitingRow middle_, half_;
   Lanes iae_, itae_;
-  ErrorMeter* meter_[kLanes];
-  int lane_[kLanes];
+  ErrorMeter* meter_[2 * kLanes];
+  int lane_[2 * kLanes];
   int size_ = 0;
 };
 
+/// e = offset + scale f
 class ErrorMeter {
  public:
-  void begin(SignQueue& queue) {
+  void begin(Lanes offset, Lanes scale, SignQueue& queue) {
     queue_ = &queue;
+    offset_ = offset, scale_ = scale;
     iae_ = ise_ = itae_ = itse_ = iae_of_queue_ = itae_of_queue_ = Lanes(0.0);
   }
 
   /// One panel of half length `half` around the time `middle`.
   void watch(const Error& e, double middle, double half, Mask active) {
-    const Lanes e0 = mul_add(e.scale, e.f[0], e.offset), e1 = e.scale * e.f[1];
+    const Lanes e0 = mul_add(scale_, e.f[0], offset_), e1 = scale_ * e.f[1];
     add_squares(e, e0, e1, middle, half, active);
-    const Lanes first = abs(e0), rest = abs(e.scale) * e.rest;
+    const Lanes first = abs(e0), rest = abs(scale_) * e.rest;
     const Mask sure = active & (first > rest);
     const Lanes length = 2 * half, moment = mul_add(Lanes(middle), e0, Lanes(half / 3) * e1);
     iae_ = select(sure, mul_add(length, first, iae_), iae_);
     itae_ = select(sure, mul_add(length, abs(moment), itae_), itae_);
-    const Mask unsure = but_not(active & (first + rest > Lanes(0.0)), sure);
-    for (unsigned left = bits(unsure); left != 0; left &= left - 1)
-      queue_->push(*this, __builtin_ctz(left), e, middle, half);
+    if (bits(sure) == bits(active)) return;
+    const unsigned unsure = bits(but_not(active & (first + rest > Lanes(0.0)), sure));
+    if (unsure != 0) queue_->push(*this, unsure, e.f, middle, half);
   }
 
   /// All that waits in the queue goes into the integrals. Call it before reading them.
   void evaluate() { queue_->flush(); }
 
+  Lanes offset() const { return offset_; }
+  Lanes scale() const { return scale_; }
   Lanes iae() const { return iae_ + iae_of_queue_; }
   Lanes itae() const { return itae_ + itae_of_queue_; }
   Lanes ise() const { return ise_; }
@@ -76,7 +79,7 @@ class ErrorMeter {
 
  private:
   void add_squares(const Error& e, Lanes e0, Lanes e1, double middle, double half, Mask active) {
-    const Lanes factor = e.scale * e.scale;
+    const Lanes factor = scale_ * scale_;
     const Lanes squares = mul_add(factor, e.sums.squares, e0 * e0);
     const Lanes moments = mul_add(factor, e.sums.moments, Lanes(2.0 / 3) * e0 * e1);
     ise_ = select(active, mul_add(Lanes(2 * half), squares, ise_), ise_);
@@ -85,18 +88,20 @@ class ErrorMeter {
   }
 
   SignQueue* queue_ = nullptr;
+  Lanes offset_, scale_;
   Lanes iae_, ise_, itae_, itse_;
   Lanes iae_of_queue_, itae_of_queue_;
 };
 
-inline void SignQueue::push(ErrorMeter& meter, int lane, const Error& e, double middle, double half) {
-  copy_lane(e_, size_, e.f, lane, lane_of(e.scale, lane));
-  lane_of(e_[0], size_) += lane_of(e.offset, lane);
-  lane_of(part_.center, size_) = middle;
-  lane_of(part_.half, size_) = half;
-  meter_[size_] = &meter;
-  lane_[size_] = lane;
-  if (++size_ == kLanes) flush();
+inline void SignQueue::push(ErrorMeter& meter, unsigned lanes, const Series& f, double middle, double half) {
+  e_.push(f, meter.scale(), meter.offset(), lanes, size_);
+  middle_.push_all(middle, size_);
+  half_.push_all(half, size_);
+  for (; lanes != 0; lanes &= lanes - 1, ++size_) {
+    meter_[size_] = &meter;
+    lane_[size_] = __builtin_ctz(lanes);
+  }
+  if (size_ >= kLanes) search(kLanes);
 }
 
 /// What zeros.inl finds of the errors. Parts are in time.
@@ -142,14 +147,19 @@ struct SignQueue::Visitor {
   }
 };
 
-inline void SignQueue::flush() {
-  if (size_ == 0) return;
+inline void SignQueue::search(int slots) {
+  Series e;
+  e_.get_first(e);
   iae_ = itae_ = Lanes(0.0);
   Visitor visitor{*this};
-  search_zeros(e_, part_, Mask::from((1u << size_) - 1), kHalvings, visitor);
-  for (int slot = 0; slot < size_; ++slot)
+  search_zeros(e, {middle_.first(), half_.first()}, Mask::from((1u << slots) - 1), kHalvings, visitor);
+  for (int slot = 0; slot < slots; ++slot)
     meter_[slot]->add(lane_[slot], lane_of(iae_, slot), lane_of(itae_, slot));
-  size_ = 0;
+  size_ -= slots;
+  if (size_ == 0) return;
+  e_.forget_first();
+  middle_.forget_first(), half_.forget_first();
+  for (int i = 0; i < size_; ++i) meter_[i] = meter_[i + slots], lane_[i] = lane_[i + slots];
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

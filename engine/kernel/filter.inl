@@ -1,6 +1,12 @@
 /// Filter Q_n = 1/(tau_f s + 1)^n on a panel: n first-order lags in a row, with derivatives of the output.
 ///
-///     tau v' + v = h      v = h - tau v'      v^(i+1) = (h^(i) - v^(i))/tau
+///     tau v' + v = h      v^(i) = h^(i) - tau v^(i+1)      v^(i+1) = (h^(i) - v^(i))/tau
+///
+/// Each lag is solved once, for the derivative of v that follows the input's derivative of order `level`. Those below come by
+/// the second formula, in which rounding is multiplied by tau; those above by the third, which loses digits by 1/tau each
+/// time (tests/engine/kernel/responses_test.cpp, ResponsesAcrossIsas). So `level` is as high as an input's derivatives are known
+/// in their own right: those of an integrator. The slope of a lag (fotd) is a numerical derivative: fed back through `level`
+/// = 1 it makes the highest coefficients grow from one dead time to the next.
 #pragma once
 
 #include "engine/kernel/legendre.inl"
@@ -15,39 +21,64 @@ struct Derivatives {
 
 class Filter {
  public:
-  void begin(int order, Lanes tau) {
+  /// Derivatives of the output up to `highest` are asked for. level 0, or one below `highest`.
+  void begin(int order, Lanes tau, int level, int highest) {
     order_ = order;
+    level_ = level, highest_ = highest;
     tau_ = tau;
     rate_ = Lanes(1.0) / tau;
     for (Lanes& x : state_) x = Lanes(0.0);
   }
 
-  /// Through all lags but the last; h' too, and with `extra` = 1 or 2 also h'', and the third derivative.
-  Derivatives all_but_last(const Lag& lag, double half_length, Derivatives h, int extra) {
-    for (int i = 0; i + 1 < order_; ++i) h = stage(lag, half_length, h, extra, i);
+  /// Everything was at rest up to this panel's start, where h and its derivatives may jump.
+  void enter(const Derivatives& h) {
+    Lanes input[4], output[4];
+    for (int i = 0; i < level_; ++i) input[i] = value_at_start(*h.at[i]);
+    for (int lag = 0; lag < order_; ++lag) {
+      output[0] = Lanes(0.0);
+      for (int i = 0; i < level_; ++i) output[i + 1] = above(input[i], output[i]);
+      state_[lag] = output[level_];
+      for (int i = 0; i < level_; ++i) input[i] = output[i];
+    }
+  }
+
+  /// Through all lags but the last.
+  template <int degree>
+  Derivatives all_but_last(const Lag& lag, double half_length, Derivatives h) {
+    for (int i = 0; i + 1 < order_; ++i) h = stage<degree>(lag, half_length, h, i);
     return h;
   }
 
-  /// The last lag in two steps, for the second can be part of a longer pass: forward elimination, then coefficient k of v'
-  /// from the one above.
-  void eliminate(const Lag& lag, const Series& h, Series& g) const { lag.eliminate(g, h, state_[order_ - 1]); }
-  static Lanes substitute(const Lag& lag, const Series& g, int k, Lanes above) {
-    return lag.substitute(g, k, above);
+  /// The last lag in two steps, for the second can be part of a longer pass: forward elimination, then the solution
+  /// coefficient by coefficient from the highest down.
+  template <int degree>
+  void eliminate(const Lag& lag, const Derivatives& h, Series& g) const {
+    lag.eliminate<degree>(g, *h.at[level_], state_[order_ - 1]);
   }
   void advance_last(double half_length, Lanes mean_slope) { advance(order_ - 1, half_length, mean_slope); }
 
-  Lanes next(Lanes h, Lanes v) const { return rate_ * (h - v); }
-  void set_next(Series& next_one, const Series& h, const Series& v) const {
-    for (int k = 0; k < kTerms; ++k) next_one[k] = next(h[k], v[k]);
+  /// v^(i) from h^(i) and v^(i+1), a coefficient.
+  Lanes below(Lanes h, Lanes derivative) const { return mul_sub_from(tau_, derivative, h); }
+  /// v^(i+1) from h^(i) and v^(i).
+  Lanes above(Lanes h, Lanes v) const { return rate_ * (h - v); }
+
+  template <int degree>
+  void set_below(Series& v, const Series& h, const Series& derivative) const {
+    for (int k = 0; k <= degree; ++k) v[k] = below(h[k], derivative[k]);
+  }
+  template <int degree>
+  void set_above(Series& derivative, const Series& h, const Series& v) const {
+    for (int k = 0; k <= degree; ++k) derivative[k] = above(h[k], v[k]);
   }
 
  private:
-  Derivatives stage(const Lag& lag, double half_length, const Derivatives& h, int extra, int i) {
+  template <int degree>
+  Derivatives stage(const Lag& lag, double half_length, const Derivatives& h, int i) {
     Series* const v = rows_[i % 2];
-    lag.set_slope(v[1], *h.at[0], state_[i]);
-    for (int k = 0; k < kTerms; ++k) v[0][k] = mul_sub_from(tau_, v[1][k], (*h.at[0])[k]);
-    for (int more = 0; more < extra; ++more) set_next(v[2 + more], *h.at[1 + more], v[1 + more]);
-    advance(i, half_length, v[1][0]);
+    lag.set_slope<degree>(v[level_ + 1], *h.at[level_], state_[i]);
+    for (int level = level_; level >= 0; --level) set_below<degree>(v[level], *h.at[level], v[level + 1]);
+    for (int level = level_ + 1; level < highest_; ++level) set_above<degree>(v[level + 1], *h.at[level], v[level]);
+    advance(i, half_length, v[level_ + 1][0]);
     return {{&v[0], &v[1], &v[2], &v[3]}};
   }
 
@@ -55,10 +86,10 @@ class Filter {
     state_[i] = mul_add(Lanes(2 * half_length), mean_slope, state_[i]);
   }
 
-  int order_ = 0;
+  int order_ = 0, level_ = 0, highest_ = 1;
   Lanes tau_, rate_;
-  Lanes state_[kernel::kMaxFilters];
-  Series rows_[2][4];
+  Lanes state_[kernel::kMaxFilters];  ///< of every lag the derivative of order `level_`, at the panel's start
+  Series rows_[2][5];
 };
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -7,6 +7,9 @@
 ///
 ///     a + b, a - b, a * b, a / b, -a        mul_add(a, b, c) = a b + c, fused where the set has it
 ///     abs, min, max, sqrt                   a < b gives a Mask; select(mask, a, b) takes a where the mask holds
+///     negative_bits(a)                      a bit for every lane whose sign is set
+///     gather_lanes(a, lanes, to)            the lanes of a bit mask one after the other; writes kLanes numbers, the rest
+///                                           of them is of no meaning
 #pragma once
 
 #include <immintrin.h>
@@ -33,6 +36,10 @@ inline RegisterMask either(RegisterMask a, RegisterMask b) { return static_cast<
 inline RegisterMask except(RegisterMask a, RegisterMask b) { return static_cast<RegisterMask>(a & ~b); }
 inline unsigned bits(RegisterMask m) { return m; }
 inline RegisterMask from_bits(unsigned b) { return static_cast<RegisterMask>(b); }
+inline unsigned sign_bits(Register a) { return _mm512_movepi64_mask(_mm512_castpd_si512(a)); }
+inline Register pack_left(Register a, unsigned lanes) {
+  return _mm512_maskz_compress_pd(static_cast<__mmask8>(lanes), a);
+}
 #elif defined(__AVX2__)
 using Register = __m256d;
 using RegisterMask = __m256d;
@@ -56,6 +63,28 @@ inline RegisterMask from_bits(unsigned b) {
   const __m256i lane = _mm256_set_epi64x(8, 4, 2, 1);
   const __m256i chosen = _mm256_and_si256(_mm256_set1_epi64x(static_cast<long long>(b)), lane);
   return _mm256_castsi256_pd(_mm256_cmpeq_epi64(chosen, lane));
+}
+inline unsigned sign_bits(Register a) { return static_cast<unsigned>(_mm256_movemask_pd(a)); }
+/// Halves of the doubles to take, eight a bit mask.
+struct HalvesTable {
+  alignas(32) int of[16][8];
+};
+constexpr HalvesTable make_halves_table() {
+  HalvesTable t{};
+  for (int lanes = 0; lanes < 16; ++lanes) {
+    int next = 0;
+    for (int lane = 0; lane < 4; ++lane) {
+      if ((lanes >> lane & 1) == 0) continue;
+      t.of[lanes][next++] = 2 * lane;
+      t.of[lanes][next++] = 2 * lane + 1;
+    }
+  }
+  return t;
+}
+inline constexpr HalvesTable kHalves = make_halves_table();
+inline Register pack_left(Register a, unsigned lanes) {
+  const __m256i halves = _mm256_load_si256(reinterpret_cast<const __m256i*>(kHalves.of[lanes]));
+  return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), halves));
 }
 #else
 using Register = __m128d;
@@ -81,6 +110,8 @@ inline unsigned bits(RegisterMask m) { return static_cast<unsigned>(_mm_movemask
 inline RegisterMask from_bits(unsigned b) {
   return _mm_castsi128_pd(_mm_set_epi64x((b & 2) ? -1 : 0, (b & 1) ? -1 : 0));
 }
+inline unsigned sign_bits(Register a) { return static_cast<unsigned>(_mm_movemask_pd(a)); }
+inline Register pack_left(Register a, unsigned lanes) { return lanes == 2 ? _mm_unpackhi_pd(a, a) : a; }
 #endif
 
 inline constexpr int kLanes = kRegisterLanes;
@@ -128,7 +159,10 @@ inline Mask but_not(Mask a, Mask b) { return {except(a.m, b.m)}; }
 inline Mask select(Mask m, Mask a, Mask b) { return (m & a) | but_not(b, m); }
 inline unsigned bits(Mask m) { return bits(m.m); }
 inline bool any(Mask m) { return bits(m) != 0; }
-inline Mask all_lanes() { return Mask::from((1u << kLanes) - 1); }
+inline constexpr unsigned kAllLanes = (1u << kLanes) - 1;
+inline Mask all_lanes() { return Mask::from(kAllLanes); }
 inline Mask operator!(Mask m) { return but_not(all_lanes(), m); }
+inline unsigned negative_bits(Lanes a) { return sign_bits(a.r); }
+inline void gather_lanes(Lanes a, unsigned lanes, double* to) { store(to, pack_left(a.r, lanes)); }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -13,6 +13,8 @@ namespace portrait::PORTRAIT_ISA_NAME {
 
 inline constexpr int kDegree = 12;
 inline constexpr int kTerms = kDegree + 1;
+/// Of responses whose fast parts have decayed: higher coefficients are then zero.
+inline constexpr int kSmoothDegree = 8;
 
 struct Series {
   Lanes c[kTerms];
@@ -27,6 +29,10 @@ struct Series {
 
 inline void set_zero(Series& f) {
   for (Lanes& c : f.c) c = Lanes(0.0);
+}
+
+inline void set_zero_above(Series& f, int degree) {
+  for (int k = degree + 1; k < kTerms; ++k) f[k] = Lanes(0.0);
 }
 
 /// to = a f
@@ -103,6 +109,15 @@ inline void set_derivative(Series& to, const Series& f) {
     Lanes& sum = k % 2 == 0 ? even : odd;
     sum += f[k + 1];
     to[k] = Lanes(2.0 * k + 1) * sum;
+  }
+}
+
+/// to = the integral of f over a panel, with f_0 = mean.
+inline void set_integral(Series& to, const Series& f, Lanes half, Lanes mean) {
+  to[0] = mean;
+  for (int k = 1; k < kTerms; ++k) {
+    const Lanes below = Lanes(1.0 / (2 * k - 1)) * f[k - 1];
+    to[k] = half * (k < kDegree ? mul_sub_from(Lanes(1.0 / (2 * k + 3)), f[k + 1], below) : below);
   }
 }
 
@@ -224,7 +239,7 @@ inline void set_cut_off(Series& to, const Series& f, double end) {
   to[0] += f[0];
 }
 
-/// Solver of tau v' + v = e on a panel, a tridiagonal system in the coefficients of v' (Galerkin, kDegree + 1 terms):
+/// Solver of tau v' + v = e on a panel, a tridiagonal system in the coefficients of v' (Galerkin, degree + 1 terms):
 ///
 ///     (tau + h/2) w_0 - (h/6) w_1 = e_0 - v(start),   (h/2)(w_{j-1}/(2j-1) - w_{j+1}/(2j+3)) + tau w_j = e_j
 ///
@@ -245,9 +260,10 @@ struct Lag {
   }
 
   /// Forward elimination for the input e from v(start).
+  template <int degree = kDegree>
   void eliminate(Series& g, const Series& e, Lanes start) const {
     Lanes below = g[0] = e[0] - start;
-    for (int j = 1; j < kTerms; ++j) g[j] = below = mul_sub_from(lower[j], below, e[j]);
+    for (int j = 1; j <= degree; ++j) g[j] = below = mul_sub_from(lower[j], below, e[j]);
   }
 
   /// Coefficient k of v' after elimination, from the one above, 0 above the last.
@@ -256,10 +272,11 @@ struct Lag {
   }
 
   /// w = v' for the input e from v(start). w may be e.
+  template <int degree = kDegree>
   void set_slope(Series& w, const Series& e, Lanes start) const {
-    eliminate(w, e, start);
+    eliminate<degree>(w, e, start);
     Lanes above = 0.0;
-    for (int k = kDegree; k >= 0; --k) w[k] = above = substitute(w, k, above);
+    for (int k = degree; k >= 0; --k) w[k] = above = substitute(w, k, above);
   }
 };
 

@@ -15,8 +15,13 @@ struct Output {
   ErrorSums sums;          ///< of y
 
   void begin() {
-    set_zero(y), set_zero(y1), set_zero(y2), set_zero(y3);
+    set_zero(y), set_zero(y1), set_zero(y2), set_zero(y3), set_zero(u), set_zero(u1);
     sum_up();
+  }
+  /// From now on series end at `degree`.
+  void cut_at(int degree) {
+    Series* const all[] = {&y, &y1, &y2, &y3, &u, &u1};
+    for (Series* const f : all) set_zero_above(*f, degree);
   }
   void sum_up() {
     rest = rest_bound(y, 1);

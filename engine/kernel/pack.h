@@ -41,6 +41,7 @@ struct Pack {
   double horizon;         ///< dead times
   Mesh mesh;              ///< while layers of the fast time constants matter, after every dead time anew
   int layered_intervals;  ///< so many dead times; from then on `graded` is 0
+  int smooth_from;        ///< from this dead time on series end at a lower degree; not before `graded` is 0
 
   PackColumn kappa, integral_gain, delta, tau_1, tau_f;  ///< integral_gain = kappa/tau_i, 0 without integral action
   PackColumn g0, g1, g2;                                 ///< y_w = -(g0 int v + g1 v + g2 v')
@@ -59,7 +60,8 @@ struct PackResult {
   StepColumns w, d;
   /// Largest deviation from rest over the last dead time, as a part of the largest of all: of y and u, both steps.
   PackColumn late;
-  PackColumn tail;        ///< largest last coefficients as a part of the signal: how far from resolved
+  PackColumn tail;         ///< largest last coefficients as a part of the signal: how far from resolved
+  PackColumn smooth_tail;  ///< the same from `smooth_from` on
   PackColumn dead_times;  ///< simulated
 };
 

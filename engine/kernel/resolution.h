@@ -2,7 +2,10 @@
 ///
 /// A fast time constant T (filter, plant, prefilter) leaves a layer e^{-t/T} after every dead time, weaker by the loop's gain
 /// |L(j/T)| each time around. Panels graded towards the start of a dead time hold the layers while they matter; after that
-/// a dead time is one panel. The guess depends on the setting alone; whether it was good enough is seen in the last
+/// a dead time is one panel. What is left then loses its fast parts the same way, |L(j omega)| each time around, and from
+/// `smooth_from` on series of a lower degree hold it.
+///
+/// The guess depends on the setting alone; whether it was good enough is seen in the last
 /// coefficients of the run, and `finer` gives what to try next.
 #pragma once
 
@@ -16,6 +19,7 @@ namespace portrait::kernel {
 struct Resolution {
   Mesh mesh{};
   int layered_intervals = 0;
+  int smooth_from = 0;
   int attempt = 0;
 };
 
@@ -24,5 +28,8 @@ Resolution first_resolution(const Loop& loop, double fastest);
 
 /// The next finer one; none beyond the finest.
 std::optional<Resolution> finer(const Resolution& resolution);
+
+/// The same without series of a lower degree.
+Resolution without_smooth_part(const Resolution& resolution);
 
 }  // namespace portrait::kernel

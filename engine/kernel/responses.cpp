@@ -79,7 +79,7 @@ struct Kind {
 
   auto key() const {
     return std::tuple(run, one_term, horizon, resolution.mesh.graded, resolution.mesh.halved,
-                      resolution.layered_intervals);
+                      resolution.layered_intervals, resolution.smooth_from);
   }
 };
 
@@ -122,6 +122,7 @@ Pack pack_for(const LoopFamily& family, const Kind& kind) {
   pack.horizon = kind.horizon;
   pack.mesh = kind.resolution.mesh;
   pack.layered_intervals = kind.resolution.layered_intervals;
+  pack.smooth_from = kind.resolution.smooth_from;
   return pack;
 }
 
@@ -140,7 +141,7 @@ void take(const StepColumns& c, std::size_t lane, bool error_vanishes, const Ste
 
 Measured measured(const Pack& pack, const PackResult& result, std::size_t lane, bool automatic) {
   Measured m;
-  m.resolved = result.tail[lane] <= kResolved;
+  m.resolved = result.tail[lane] <= kResolved && result.smooth_tail[lane] <= kResolved;
   const bool ended_early = result.dead_times[lane] < pack.horizon;
   const bool settled = automatic ? ended_early : result.late[lane] <= kSettlingBand;
   m.status = settled ? Status::settled : Status::not_settled;
@@ -200,14 +201,15 @@ class Measurement {
       Measured& m = results_[tasks[lane].setting];
       m = measured(pack, result, lane, horizon_.automatic);
       if (!m.resolved)
-        try_finer(tasks[lane]);
+        try_finer(tasks[lane], result.tail[lane] <= kResolved);
       else if (horizon_.automatic && m.status == Status::not_settled && pack.horizon < kHorizonCap)
         try_longer(tasks[lane]);
     }
   }
 
-  void try_finer(Task task) {
-    const auto next = finer(task.kind.resolution);
+  void try_finer(Task task, bool all_but_smooth_part) {
+    const std::optional<Resolution> next =
+        all_but_smooth_part ? without_smooth_part(task.kind.resolution) : finer(task.kind.resolution);
     if (!next) return;
     task.kind.resolution = *next;
     tasks_.push_back(task);

@@ -8,7 +8,7 @@
 ///           is large and TV2 small, as behind a step through a strong derivative, TV2 has fewer digits of its own:
 ///           tests/engine/kernel/many_responses_test.cpp
 /// result    a setting's bits do not depend on its neighbours in the pack; instruction sets agree to 1e-12 of a signal's
-///           variation without strong layers, to 1e-9 everywhere
+///           variation: tests/engine/kernel/responses_test.cpp
 #pragma once
 
 #include <span>

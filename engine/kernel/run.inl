@@ -33,11 +33,8 @@ class Run {
     const int simulated = span_.intervals + (both_ ? 1 : 0);
     for (int k = 0; k < simulated && any(active_); ++k) {
       if (k == pack_.layered_intervals) leave_layers();
-      const bool look = k % 8 == 7;
-      quiet_ = active_;
-      for (int p = 0; p < panel_count_; ++p) panel(k, p, look);
-      dead_times = select(active_, Lanes(k + 1.0), dead_times);
-      if (look) rest_when_quiet();
+      if (k == pack_.smooth_from) begin_smooth();
+      k < pack_.smooth_from ? interval<kDegree>(k) : interval<kSmoothDegree>(k);
     }
   }
 
@@ -50,7 +47,7 @@ class Run {
     if (!disturbed) setpoint_.begin(pack_);
     chain_.begin(pack_, both_ ? derived_.extra(plant) : 0);
     chain_.load = disturbed ? 1.0 : 0.0;
-    active_ = Mask::from((1u << kLanes) - 1);
+    active_ = Mask::from(kAllLanes);
     set_mesh(pack_.mesh);
     for (int p = 0; p < panel_count_; ++p) outputs_[p].begin();
   }
@@ -88,24 +85,52 @@ class Run {
     active_ = but_not(active_, quiet_);
   }
 
+  /// Nothing fast is left: series end at a lower degree.
+  void begin_smooth() {
+    for (int p = 0; p < panel_count_; ++p) outputs_[p].cut_at(kSmoothDegree);
+    chain_.cut_at(kSmoothDegree);
+    if (disturbed) d_.begin_smooth();
+    if (both_ || !disturbed) w_.begin_smooth();
+  }
+
+  template <int degree>
+  void interval(int k) {
+    const bool look = k % 8 == 7;
+    quiet_ = active_;
+    for (int p = 0; p < panel_count_; ++p) panel<degree>(k, p, look);
+    dead_times = select(active_, Lanes(k + 1.0), dead_times);
+    if (look) rest_when_quiet();
+  }
+
+  template <int degree>
   void panel(int k, int p, bool look) {
     const Panel& panel = panels_[p];
     Output& z = outputs_[p];
     const bool counts = reaches(k, p);
     const Place at = place(k, p, look);
-    if (counts) watch_output(z, at);
-    if constexpr (disturbed) {
-      chain_.run(panel, {{&z.y, &z.y1, &z.y2, &z.y3}}, z.y1, z);
-    } else {
-      subtract_setpoint(panel, z);
-      chain_.run(panel, {{&error_, filtered ? &error1_ : &z.y1, &z.y2, nullptr}}, error1_, z);
-    }
-    if (both_) derive_setpoint(k, p, look);
+    if (counts) watch_output<degree>(z, at);
+    run_chain<degree>(panel, z, p == 0 && k == (disturbed ? 1 : 0));
+    if (both_) derive_setpoint<degree>(k, p, at);
     Series& u = plant_input<plant>(z);
     if (counts)
-      watch_signal(disturbed ? d_.u : w_.u, {u, plant_input_slope<plant>(z), Lanes(1.0), chain_.u1_rest}, at,
-                   kInputJumps, active_, quiet_);
+      watch_signal<degree>(disturbed ? d_.u : w_.u, {u, plant_input_slope<plant>(z), chain_.u1_rest}, at, kInputJumps,
+                           active_, quiet_);
     if (plant != PlantKind::fotd) u[0] += chain_.load;
+  }
+
+  /// `begins`: up to here the controller saw nothing.
+  template <int degree>
+  void run_chain(const Panel& panel, Output& z, bool begins) {
+    if constexpr (disturbed) {
+      const Derivatives h{{&z.y, &z.y1, &z.y2, &z.y3}};
+      if (begins) chain_.enter(h);
+      chain_.template run<degree>(panel, h, z.y1, z);
+    } else {
+      subtract_setpoint(panel, z);
+      const Derivatives h{{&error_, filtered ? &error1_ : &z.y1, &z.y2, nullptr}};
+      if (begins) chain_.enter(h);
+      chain_.template run<degree>(panel, h, error1_, z);
+    }
   }
 
   /// h = y - r and h' = y' - r'.
@@ -118,10 +143,11 @@ class Run {
   }
 
   /// y, and e = 0 - y or 1 - y.
+  template <int degree>
   void watch_output(const Output& z, const Place& at) {
     StepMeters& m = disturbed ? d_ : w_;
-    watch_signal(m.y, {z.y, z.y1, Lanes(1.0), z.slope_rest}, at, false, active_, quiet_);
-    watch_error(m.e, {z.y, Lanes(disturbed ? 0.0 : 1.0), Lanes(-1.0), z.rest, z.sums}, at, active_);
+    watch_signal<degree>(m.y, {z.y, z.y1, z.slope_rest}, at, false, active_, quiet_);
+    watch_error(m.e, {z.y, z.rest, z.sums}, at, active_);
   }
 
   /// Whether panel p of interval k has a part before the horizon.
@@ -146,46 +172,68 @@ class Run {
   }
 
   /// y_w of this interval, and u_w of the one before.
-  void derive_setpoint(int k, int p, bool look) {
+  template <int degree>
+  void derive_setpoint(int k, int p, const Place& at) {
     const bool for_y = reaches(k, p), for_u = reaches(k - 1, p);
-    if (derived_.is_scaled() && plant != PlantKind::fotd) {
-      const Lanes g0 = derived_.scale();
-      if (for_y)
-        watch_derived_output({chain_.sum, chain_.v, g0, chain_.v_rest}, chain_.sum_rest, chain_.of_sum,
-                             place(k, p, look));
-      const Series& u = kRelativeDegree == 2 ? chain_.v1 : chain_.v;
-      const Series& u1 = kRelativeDegree == 2 ? chain_.v2 : chain_.v1;
-      if (for_u)
-        watch_derived_input({u, u1, g0, kRelativeDegree == 2 ? chain_.v2_rest : chain_.v1_rest},
-                            place(k - 1, p, look));
-      return;
-    }
-    Series &f = scratch_[0], &slope = scratch_[1];
-    derived_.set(f, 0, chain_);
-    derived_.set(slope, 1, chain_);
-    if (for_y)
-      watch_derived_output({f, slope, Lanes(1.0), rest_bound(slope, 1)}, rest_bound(f, 1), error_sums_of(f),
-                           place(k, p, look));
+    const bool scaled = derived_.is_scaled();
+    if (for_y && scaled) watch_derived_output<degree>(chain_.sum, chain_.v, chain_.v_rest, chain_.sum_rest, chain_.of_sum, at);
+    if (for_y && !scaled) derive_output<degree>(at);
     if (!for_u) return;
+    const Place before = place(k - 1, p, at.look);
+    if (!scaled || plant == PlantKind::fotd) return derive_input<degree>(before);
+    const Series& u = kRelativeDegree == 2 ? chain_.v1 : chain_.v;
+    const Series& u1 = kRelativeDegree == 2 ? chain_.v2 : chain_.v1;
+    watch_derived_input<degree>(u, u1, kRelativeDegree == 2 ? chain_.v2_rest : chain_.v1_rest, before);
+  }
+
+  template <int degree>
+  void derive_output(const Place& at) {
+    Series &y = scratch_[0], &y1 = scratch_[1];
+    derived_.set(y, 0, chain_);
+    derived_.set(y1, 1, chain_);
+    watch_derived_output<degree>(y, y1, rest_bound(y1, 1), rest_bound(y, 1), error_sums_of(y), at);
+  }
+
+  template <int degree>
+  void derive_input(const Place& at) {
+    Series &u = scratch_[0], &u1 = scratch_[1];
     if constexpr (plant == PlantKind::fotd) {
-      const Lanes tau_1 = Lanes::from(pack_.tau_1);
-      derived_.set(scratch_[2], 2, chain_);
-      add_scaled(f, tau_1, slope);
-      add_scaled(slope, tau_1, scratch_[2]);
+      derive_input_of_lag<degree>(u, u1);
     } else {
-      derived_.set(f, kRelativeDegree, chain_);
-      derived_.set(slope, kRelativeDegree + 1, chain_);
+      derived_.set(u, kRelativeDegree, chain_);
+      derived_.set(u1, kRelativeDegree + 1, chain_);
     }
-    watch_derived_input({f, slope, Lanes(1.0), rest_bound(slope, 1)}, place(k - 1, p, look));
+    watch_derived_input<degree>(u, u1, rest_bound(u1, 1), at);
   }
 
-  void watch_derived_output(const Signal& y, Lanes rest, const ErrorSums& sums, const Place& at) {
-    watch_signal(w_.y, y, at, false, active_, quiet_);
-    watch_error(w_.e, {y.f, Lanes(1.0), -y.scale, rest, sums}, at, active_);
+  /// tau_1 y_w' + y_w and its slope.
+  template <int degree>
+  void derive_input_of_lag(Series& u, Series& u1) {
+    const Lanes tau_1 = Lanes::from(pack_.tau_1);
+    if (derived_.is_scaled()) {
+      for (int k = 0; k <= degree; ++k) {
+        u[k] = mul_add(tau_1, chain_.v[k], chain_.sum[k]);
+        u1[k] = mul_add(tau_1, chain_.v1[k], chain_.v[k]);
+      }
+      return set_zero_above(u, degree), set_zero_above(u1, degree);
+    }
+    derived_.set(u, 0, chain_);
+    derived_.set(u1, 1, chain_);
+    derived_.set(scratch_[2], 2, chain_);
+    add_scaled(u, tau_1, u1);
+    add_scaled(u1, tau_1, scratch_[2]);
   }
 
-  void watch_derived_input(const Signal& u, const Place& at) {
-    watch_signal(w_.u, u, at, kInputJumps, active_, quiet_);
+  template <int degree>
+  void watch_derived_output(const Series& y, const Series& y1, Lanes slope_rest, Lanes rest, const ErrorSums& sums,
+                            const Place& at) {
+    watch_signal<degree>(w_.y, {y, y1, slope_rest}, at, false, active_, quiet_);
+    watch_error(w_.e, {y, rest, sums}, at, active_);
+  }
+
+  template <int degree>
+  void watch_derived_input(const Series& u, const Series& u1, Lanes slope_rest, const Place& at) {
+    watch_signal<degree>(w_.u, {u, u1, slope_rest}, at, kInputJumps, active_, quiet_);
   }
 
   static constexpr int kRelativeDegree = plant == PlantKind::dipdt ? 2 : plant == PlantKind::ipdt ? 1 : 0;
@@ -228,21 +276,23 @@ void run_family(const Pack& pack, PackResult& result) {
   Queues queues;
   StepMeters w, d;
   Lanes dead_times = 0.0;
-  w.begin(Lanes::from(pack.y_rest_w), Lanes::from(pack.u_rest_w), queues);
-  d.begin(Lanes::from(pack.y_rest_d), Lanes::from(pack.u_rest_d), queues);
+  w.begin(Lanes::from(pack.y_rest_w), Lanes::from(pack.u_rest_w), 1, scale_of_setpoint(pack), queues);
+  d.begin(Lanes::from(pack.y_rest_d), Lanes::from(pack.u_rest_d), 0, 1.0, queues);
   run_step<plant, filtered, true>(pack, w, d, dead_times);
   if (pack.setpoint_run != SetpointRun::from_disturbance) run_step<plant, filtered, false>(pack, w, d, dead_times);
   dead_times.to(result.dead_times);
   store_step(w, result.w);
   store_step(d, result.d);
-  Lanes late = 0.0, tail = 0.0;
+  Lanes late = 0.0, tail = 0.0, smooth_tail = 0.0;
   const ShapeMeter* meters[] = {&w.y, &w.u, &d.y, &d.u};
   for (const ShapeMeter* m : meters) {
     late = max(late, m->late_part());
     tail = max(tail, m->tail_part());
+    smooth_tail = max(smooth_tail, m->smooth_tail_part());
   }
   late.to(result.late);
   tail.to(result.tail);
+  smooth_tail.to(result.smooth_tail);
 }
 
 inline void run(const Pack& pack, PackResult& result) {

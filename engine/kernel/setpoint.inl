@@ -38,6 +38,14 @@ class DerivedSetpoint {
   bool has_g1_ = false, has_g2_ = false;
 };
 
+/// What y_w and u_w are multiplied by after all else: g0 where they are g0 times one series, else 1.
+inline Lanes scale_of_setpoint(const kernel::Pack& pack) {
+  DerivedSetpoint derived;
+  derived.begin(pack);
+  const bool scaled = pack.setpoint_run == kernel::SetpointRun::from_disturbance && derived.is_scaled();
+  return scaled ? derived.scale() : Lanes(1.0);
+}
+
 /// r = F w on the panels one after the other, w = 1 from t = 0.
 class FilteredSetpoint {
  public:

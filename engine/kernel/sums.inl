@@ -19,17 +19,23 @@ inline Lanes rest_of_integral(double half_length, Lanes first, Lanes rest) {
 }
 
 /// Of an error: sum of c_k^2/(2k+1), half the integral of the square; and what the moment of the square needs,
-/// int x P_k P_{k-1} = 2k/((2k-1)(2k+1)) = (1 + 1/(2k-1))/(2k+1), k >= 2. Coefficients come from the highest down. Above
-/// `kSquared` the squares are left out: of series that have died out at kDegree they are below rounding.
+/// int x P_k P_{k-1} = 2k/((2k-1)(2k+1)) = (1 + 1/(2k-1))/(2k+1), k >= 2.
 struct ErrorSums {
-  static constexpr int kSquared = 8;
   Lanes squares = 0.0, moments = 0.0;
+};
+
+/// Takes the coefficients from the highest down. Above `kSquared` the squares are left out: of series that have died out
+/// at `degree` they are below rounding.
+template <int degree>
+struct ErrorSumsTo {
+  static constexpr int kSquared = degree == kDegree ? 8 : 6;
+  ErrorSums sums;
 
   void add(int k, Lanes c) {
     if (k > kSquared) return;
     const Lanes scaled = c * Lanes(1.0 / (2 * k + 1));
-    squares = mul_add(c, scaled, squares);
-    moments = mul_add(above_, c + scaled, moments);
+    sums.squares = mul_add(c, scaled, sums.squares);
+    sums.moments = mul_add(above_, c + scaled, sums.moments);
     above_ = scaled;
   }
 
@@ -38,9 +44,9 @@ struct ErrorSums {
 };
 
 inline ErrorSums error_sums_of(const Series& f) {
-  ErrorSums sums;
-  for (int k = kDegree; k >= 1; --k) sums.add(k, f[k]);
-  return sums;
+  ErrorSumsTo<kDegree> of_f;
+  for (int k = kDegree; k >= 1; --k) of_f.add(k, f[k]);
+  return of_f.sums;
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

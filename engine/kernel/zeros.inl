@@ -91,7 +91,7 @@ struct Zero {
 /// bracket keeps Newton's method from running away. A lane that has arrived stays: its bits are its own.
 inline Zero zero_of(const Series& f, const Ends& ends, Mask mask) {
   const Powers powers(f);
-  constexpr double kNear = 3e-4;
+  constexpr double kNear = 3e-5;
   Lanes left = -1.0, right = 1.0;
   Zero zero{zero_of_parabola(ends, value_in_middle(f)), Lanes(0.0), Lanes(0.0)};
   Mask open = mask;
@@ -134,17 +134,6 @@ void search_zeros(const Series& f, const Part& part, Mask mask, int halvings_lef
   search_zeros(half, part.left(), undecided, halvings_left - 1, visitor);
   set_right_half(half, f);
   search_zeros(half, part.right(), undecided, halvings_left - 1, visitor);
-}
-
-/// One lane of a vector, to read or to write.
-inline double& lane_of(Lanes& a, int lane) { return reinterpret_cast<double*>(&a)[lane]; }
-inline const double& lane_of(const Lanes& a, int lane) { return reinterpret_cast<const double*>(&a)[lane]; }
-
-/// A lane of `from`, times a factor.
-inline void copy_lane(Series& to, int slot, const Series& from, int lane, double factor) {
-  const double* const in = &lane_of(from[0], lane);
-  double* const out = &lane_of(to[0], slot);
-  for (int k = 0; k < kTerms; ++k) out[k * kLanes] = factor * in[k * kLanes];
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

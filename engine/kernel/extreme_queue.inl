@@ -1,0 +1,103 @@
+/// Panels of single lanes on which a slope may vanish: searched, a whole vector of them at a time, for the extremes of the
+/// signal.
+#pragma once
+
+#include "engine/kernel/waiting.inl"
+#include "engine/kernel/zeros.inl"
+
+namespace portrait::PORTRAIT_ISA_NAME {
+
+/// A signal on a panel: f, with f' per dead time and at least its sum of |c_k|, k >= 1.
+struct Signal {
+  const Series& f;
+  const Series& slope;
+  Lanes slope_rest;
+};
+
+class ShapeMeter;
+
+class ExtremeQueue {
+ public:
+  /// `start`: f' at the panel's start, or where it is 0 there, at its end.
+  void push(ShapeMeter& meter, unsigned lanes, const Signal& signal, double half, Lanes start) {
+    slope_.push(signal.slope, lanes, size_);
+    mean_.push(signal.f[0], lanes, size_);
+    start_.push(start, lanes, size_);
+    half_.push_all(half, size_);
+    for (unsigned left = lanes; left != 0; left &= left - 1, ++size_) {
+      meter_[size_] = &meter;
+      lane_[size_] = __builtin_ctz(left);
+    }
+    if (size_ >= kLanes) search(kLanes);
+  }
+
+  void flush() {
+    if (size_ > 0) search(size_);
+  }
+
+ private:
+  static constexpr int kMostFound = 2 << kHalvings;
+  struct Visitor;
+
+  /// The first `slots` lanes that wait.
+  void search(int slots);
+  /// Slots were filled in order of time: in that order they report, also two of one lane.
+  void report(int slots);
+
+  WaitingSeries slope_;
+  WaitingRow mean_, start_, half_;
+  ShapeMeter* meter_[2 * kLanes];
+  int lane_[2 * kLanes];
+  int size_ = 0;
+  unsigned falling_ = 0;                ///< of the slots in search, the direction so far
+  double found_[kMostFound][kLanes];    ///< extremes of a slot, in order of time
+  int count_[kLanes] = {};
+};
+
+/// What zeros.inl finds of the slopes.
+struct ExtremeQueue::Visitor {
+  ExtremeQueue& queue;
+  Lanes half;
+  const Series& f;
+
+  void keeps_sign(const Series& slope, const Part& part, Mask mask) { go_on(slope[0], part, bits(mask)); }
+
+  void may_cross(const Series& slope, const Part& part, const Ends& ends, Mask mask) {
+    const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
+    const Mask starts = abs(ends.left) > Lanes(0.0), moves = starts | (abs(ends.right) > Lanes(0.0));
+    go_on(select(starts, ends.left, ends.right), part, bits(mask & moves));
+    if (!any(crosses)) return;
+    const Zero zero = zero_of(slope, ends, crosses);
+    // From x on Newton's last step adds half of itself times f'; f' by the panel's x.
+    const Lanes left_over = Lanes(0.5) * half * part.half * zero.step * zero.here;
+    note(value(f, part.at(zero.x)) + left_over, bits(crosses));
+    queue.falling_ ^= bits(crosses);
+  }
+
+  /// A zero on the very edge between two parts shows only by the direction.
+  void go_on(Lanes slope, const Part& part, unsigned lanes) {
+    const unsigned falls = negative_bits(slope), turned = lanes & (falls ^ queue.falling_);
+    if (turned != 0) note(value(f, part.start()), turned);
+    queue.falling_ = (queue.falling_ & ~lanes) | (falls & lanes);
+  }
+
+  void note(Lanes x, unsigned lanes) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int slot = __builtin_ctz(lanes);
+      queue.found_[queue.count_[slot]++][slot] = lane_of(x, slot);
+    }
+  }
+};
+
+inline void ExtremeQueue::search(int slots) {
+  Series slope, f;
+  slope_.get_first(slope);
+  const Lanes half = half_.first();
+  set_integral(f, slope, half, mean_.first());
+  falling_ = negative_bits(start_.first());
+  Visitor visitor{*this, half, f};
+  search_zeros(slope, {Lanes(0.0), Lanes(1.0)}, Mask::from((1u << slots) - 1), kHalvings, visitor);
+  report(slots);
+}
+
+}  // namespace portrait::PORTRAIT_ISA_NAME
