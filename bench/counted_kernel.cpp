@@ -6,7 +6,7 @@
 #define PORTRAIT_ISA_NAME counted
 #include "bench/counted_lanes.inl"
 #include "engine/kernel/margins.inl"
-#include "engine/kernel/run.inl"
+#include "engine/kernel/run_pack.inl"
 
 namespace portrait::counted {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/kernel/margins.inl"
-#include "engine/kernel/run.inl"
+#include "engine/kernel/run_pack.inl"
 
 #define PORTRAIT_TEXT_OF(name) #name
 #define PORTRAIT_TEXT(name) PORTRAIT_TEXT_OF(name)

@@ -5,7 +5,8 @@
 ///
 /// One pass over the coefficients, from the highest down: the back substitution of the last lag gives its highest
 /// derivative, v and the others follow, and each integration one coefficient behind what it integrates, so that nothing is
-/// loaded twice. The meters' sums are taken on the way. `degree`: that of the series in use, kDegree or less.
+/// loaded twice. The meters' sums are taken on the way. Series that only a closer look asks for are left out and made when
+/// it does (`complete`). `degree`: that of the series in use, kDegree or less.
 #pragma once
 
 #include "engine/kernel/filter.inl"
@@ -40,14 +41,14 @@ class Chain {
   Lanes sum_rest, v_rest, v1_rest, v2_rest, u1_rest;  ///< at least the sums of |c_k|, k >= 1
   ErrorSums of_sum;
 
-  /// `extra`: derivatives of v beyond v'' that are asked for.
-  void begin(const kernel::Pack& pack, int extra) {
+  /// `extra`: derivatives of v beyond v'' that are asked for. `sparing`: leave out what `complete` can make.
+  void begin(const kernel::Pack& pack, int extra, bool sparing) {
     extra_ = extra;
+    sparing_ = sparing && filtered && !kLag && extra == 0;
     tau_1_ = Lanes::from(pack.tau_1);
     if (filtered) filter_.begin(pack.n, Lanes::from(pack.tau_f), kLag ? 0 : 1 + extra, 2 + extra);
     if (kLag) plant_rate_ = Lanes(1.0) / tau_1_;
-    kappa_ = -Lanes::from(pack.kappa), integral_gain_ = -Lanes::from(pack.integral_gain);
-    delta_ = -Lanes::from(pack.delta);
+    gains_ = {-Lanes::from(pack.kappa), -Lanes::from(pack.integral_gain), -Lanes::from(pack.delta)};
     integral_ = z_ = z1_ = Lanes(0.0);
   }
 
@@ -67,11 +68,35 @@ class Chain {
   void run(const Panel& panel, Derivatives h, const Series& h1, Output& z) {
     if constexpr (!filtered) {
       if (extra_ > 0) copy(v3, *h.at[3]);
-      pass<degree, false>(panel, h, h1, z);
+      pass<degree, Mode::full>(panel, h, h1, z);
     } else {
       run_filtered<degree>(panel, h, h1, z);
     }
     if constexpr (kLag) step_lag<degree>(panel, z);
+  }
+
+  /// All coefficients of int v, of which the pass may have left out those in the middle.
+  template <int degree>
+  void complete_sum(const Panel& panel) {
+    if (!sparing_) return;
+    Integration of_v(panel.weights);
+    for (int k = degree; k > 0; --k) {
+      const Lanes integral = of_v.give(k, v[k]);
+      if (k < degree) sum[k + 1] = integral;
+    }
+    sum[1] = of_v.give(0, v[0]);
+  }
+
+  /// All coefficients of u and u'.
+  template <int degree>
+  void complete_input(const Panel& panel, Output& z) {
+    if (!sparing_) return;
+    complete_sum<degree>(panel);
+    Series &u = plant_input<kind>(z), &u1 = plant_input_slope<kind>(z);
+    for (int k = 1; k <= degree; ++k) {
+      u[k] = input_of(gains_, v[k], sum[k], v1[k]);
+      u1[k] = input_of(gains_, v1[k], v[k], v2[k]);
+    }
   }
 
   Lanes load = 1.0;  ///< d
@@ -79,17 +104,31 @@ class Chain {
  private:
   static constexpr bool kLag = kind == kernel::PlantKind::fotd;
 
+  /// The controller's, times -1.
+  struct Gains {
+    Lanes kappa, integral, delta;
+  };
+
+  /// What the pass finds, and what it keeps.
+  enum class Mode {
+    sparing,  ///< v'' from the elimination; of int v and u the first and the last two coefficients, of u' the first
+    full,     ///< all of them
+    known,    ///< the same, v'' having been found
+  };
+
   template <int degree>
   void run_filtered(const Panel& panel, Derivatives h, const Series& h1, Output& z) {
     h = filter_.template all_but_last<degree>(panel.filter, panel.half, h);
     Series& solved = kLag ? v1 : extra_ == 0 ? v2 : extra_ == 1 ? v3 : v4;
     filter_.template eliminate<degree>(panel.filter, h, solved);
-    if (kLag || extra_ == 0) {
-      pass<degree, false>(panel, h, h1, z);
+    if (sparing_) {
+      pass<degree, kLag ? Mode::full : Mode::sparing>(panel, h, h1, z);
+    } else if (kLag || extra_ == 0) {
+      pass<degree, Mode::full>(panel, h, h1, z);
       if (kLag && extra_ > 0) filter_.template set_above<degree>(v3, *h.at[2], v2);
     } else {
       find_higher<degree>(panel, h, solved);
-      pass<degree, true>(panel, h, h1, z);
+      pass<degree, kLag ? Mode::full : Mode::known>(panel, h, h1, z);
     }
     filter_.advance_last(panel.half, solved[0]);
   }
@@ -110,68 +149,84 @@ class Chain {
 
   /// `known`: v'' has been found; else v2, or v1 of a lag, holds what elimination left.
   template <bool known>
-  Filtered filtered_at(int k, const Panel& panel, const Derivatives& h, const Series& h1, const Filtered& above) {
+  Filtered filtered_at(int k, const Panel& panel, const Derivatives& h, const Series& h1, const Filtered& above,
+                       const LagFormula& lag) {
     if constexpr (filtered && kLag) {
       const Lanes slope = panel.filter.substitute(v1, k, above.v1);
-      return {filter_.below((*h.at[0])[k], slope), slope, filter_.above((*h.at[1])[k], slope), slope};
+      return {lag.below((*h.at[0])[k], slope), slope, lag.above((*h.at[1])[k], slope), slope};
     } else if constexpr (filtered) {
       const Lanes w = known ? v2[k] : panel.filter.substitute(v2, k, above.v2);
-      const Lanes slope = filter_.below((*h.at[1])[k], w);
-      return {filter_.below((*h.at[0])[k], slope), slope, w, slope};
+      const Lanes slope = lag.below((*h.at[1])[k], w);
+      return {lag.below((*h.at[0])[k], slope), slope, w, slope};
     }
     return {(*h.at[0])[k], (*h.at[1])[k], (*h.at[2])[k], h1[k]};
   }
 
-  template <int degree, bool known>
+  /// A coefficient of u from those of v, int v, v'; of u' from those of v', v, v''.
+  static Lanes input_of(const Gains& minus, Lanes v, Lanes sum, Lanes v1) {
+    return mul_add(minus.kappa, v, mul_add(minus.integral, sum, minus.delta * v1));
+  }
+
+  template <int degree, Mode mode>
   void pass(const Panel& panel, const Derivatives& h, const Series& h1, Output& z) {
+    constexpr bool sparing = mode == Mode::sparing;
+    // Where registers hold them they need not be loaded after every store.
+    const Gains gains = gains_;
+    const LagFormula lag = filter_.formula();
     Integration of_v(panel.weights), of_u(panel.weights), of_z1(panel.weights);
     Rest rest_v2, rest_u1;
     ErrorSumsTo<degree> sums, z_sums;
     Filtered above{Lanes(0.0), Lanes(0.0), Lanes(0.0), Lanes(0.0)};
     Series &u = plant_input<kind>(z), &u1 = plant_input_slope<kind>(z);
+    const auto is_kept = [](int k) { return !sparing || k <= 1 || k >= degree - 1; };
 
     // u_k and what follows from it, one coefficient behind v.
-    const auto act = [&](int k, Lanes integral, Lanes extra_load) {
-      const Lanes input = mul_add(kappa_, above.v, mul_add(integral_gain_, integral, delta_ * above.v1));
-      u[k] = input;
+    const auto act = [&](int k, Lanes integral) {
+      const Lanes input = input_of(gains, above.v, integral, above.v1);
+      if (kind == kernel::PlantKind::ipdt || is_kept(k)) u[k] = input;
       if constexpr (kind == kernel::PlantKind::dipdt) {
-        const Lanes z1 = of_u.give(k, input + extra_load);
+        const Lanes z1 = of_u.give(k, k == 0 ? input + load : input);
         if (k < degree) drive_double<degree>(k + 1, z1, of_z1, z_sums, z);
       } else if constexpr (kind == kernel::PlantKind::ipdt) {
-        const Lanes y = of_u.give(k, input + extra_load);
+        const Lanes y = of_u.give(k, k == 0 ? input + load : input);
         if (k < degree) z.y[k + 1] = y, z_sums.add(k + 1, y);
       }
     };
 
 #pragma GCC unroll 16
     for (int k = degree; k >= 0; --k) {
-      const Filtered here = filtered_at<known>(k, panel, h, h1, above);
+      const Filtered here = filtered_at<mode == Mode::known>(k, panel, h, h1, above, lag);
       const Lanes integral = of_v.give(k, here.v);
       if (k < degree) {
-        sum[k + 1] = integral;
+        if (is_kept(k + 1)) sum[k + 1] = integral;
         sums.add(k + 1, integral);
-        act(k + 1, integral, Lanes(0.0));
+        act(k + 1, integral);
       }
-      const Lanes slope = mul_add(kappa_, here.slope, mul_add(integral_gain_, here.v, delta_ * here.v2));
-      if (k > 0) rest_v2.add(here.v2), rest_u1.add(slope);
+      if (k > 0) rest_v2.add(here.v2);
       v[k] = here.v, v1[k] = here.v1, v2[k] = here.v2;
-      u1[k] = slope;
+      const Lanes slope = input_of(gains, here.slope, here.v, here.v2);
+      if (k > 0) rest_u1.add(slope);
+      if (!sparing || k == 0) u1[k] = slope;
       above = here;
     }
     sum[0] = of_v.last(integral_);
     integral_ = mul_add(Lanes(2 * panel.half), above.v, integral_);
-    act(0, sum[0], load);
+    act(0, sum[0]);
     finish<degree>(panel, of_u, of_z1, z_sums, z);
     of_sum = sums.sums;
-    v2_rest = rest_v2.sum, u1_rest = rest_u1.sum;
-    bound_rests(panel.half, z);
+    v2_rest = rest_v2.sum;
+    bound_rests(panel.half);
+    u1_rest = rest_u1.sum;
+    bound_output_rests(panel.half, z);
   }
 
   /// What is integrated from v'' and u' has no sum of its own.
-  void bound_rests(double half, Output& z) {
+  void bound_rests(double half) {
     v1_rest = filtered ? rest_of_integral(half, v2[0], v2_rest) : rest_bound(v1, 1);
     v_rest = filtered ? rest_of_integral(half, v1[0], v1_rest) : rest_bound(v, 1);
     sum_rest = rest_of_integral(half, v[0], v_rest);
+  }
+  void bound_output_rests(double half, Output& z) {
     if constexpr (kLag) return;
     const Lanes u_rest = rest_of_integral(half, plant_input_slope<kind>(z)[0], u1_rest);
     const Lanes driven = rest_of_integral(half, plant_input<kind>(z)[0] + load, u_rest);
@@ -231,7 +286,8 @@ class Chain {
   Filter filter_;
   int extra_ = 0;
   Lanes tau_1_, plant_rate_;
-  Lanes kappa_, integral_gain_, delta_;  ///< times -1
+  Gains gains_;
+  bool sparing_ = false;
   Lanes integral_, z_, z1_;
 };
 

@@ -48,8 +48,9 @@ class ErrorMeter {
     iae_ = ise_ = itae_ = itse_ = iae_of_queue_ = itae_of_queue_ = Lanes(0.0);
   }
 
-  /// One panel of half length `half` around the time `middle`.
-  void watch(const Error& e, double middle, double half, Mask active) {
+  /// One panel of half length `half` around the time `middle`. Gives the lanes in which e may change its sign: these are
+  /// still to be looked at.
+  unsigned see(const Error& e, double middle, double half, Mask active) {
     const Lanes e0 = mul_add(scale_, e.f[0], offset_), e1 = scale_ * e.f[1];
     add_squares(e, e0, e1, middle, half, active);
     const Lanes first = abs(e0), rest = abs(scale_) * e.rest;
@@ -57,9 +58,17 @@ class ErrorMeter {
     const Lanes length = 2 * half, moment = mul_add(Lanes(middle), e0, Lanes(half / 3) * e1);
     iae_ = select(sure, mul_add(length, first, iae_), iae_);
     itae_ = select(sure, mul_add(length, abs(moment), itae_), itae_);
-    if (bits(sure) == bits(active)) return;
-    const unsigned unsure = bits(but_not(active & (first + rest > Lanes(0.0)), sure));
-    if (unsure != 0) queue_->push(*this, unsure, e.f, middle, half);
+    return bits(but_not(active, sure));
+  }
+
+  void look_at(unsigned lanes, const Error& e, double middle, double half) {
+    lanes &= bits(abs(mul_add(scale_, e.f[0], offset_)) + abs(scale_) * e.rest > Lanes(0.0));
+    if (lanes != 0) queue_->push(*this, lanes, e.f, middle, half);
+  }
+
+  void watch(const Error& e, double middle, double half, Mask active) {
+    const unsigned unsure = see(e, middle, half, active);
+    if (unsure != 0) look_at(unsure, e, middle, half);
   }
 
   /// All that waits in the queue goes into the integrals. Call it before reading them.
@@ -116,7 +125,7 @@ struct SignQueue::Visitor {
   void may_cross(const Series& e, const Part& part, const Ends& ends, Mask mask) {
     const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
     keeps_sign(e, part, but_not(mask, crosses));
-    if (any(crosses)) both_signs(e, zero_of(e, ends, crosses), part, crosses);
+    if (any(crosses)) both_signs(e, zero_of<kDegree>(e, ends, crosses), part, crosses);
   }
 
   /// Both integrals from the left end to the zero, and the rest. int_{-1}^x P_k and int_{-1}^x s P_k(s) ds are sums of two
@@ -152,7 +161,7 @@ inline void SignQueue::search(int slots) {
   e_.get_first(e);
   iae_ = itae_ = Lanes(0.0);
   Visitor visitor{*this};
-  search_zeros(e, {middle_.first(), half_.first()}, Mask::from((1u << slots) - 1), kHalvings, visitor);
+  search_zeros<kDegree>(e, {middle_.first(), half_.first()}, Mask::from((1u << slots) - 1), kHalvings, visitor);
   for (int slot = 0; slot < slots; ++slot)
     meter_[slot]->add(lane_[slot], lane_of(iae_, slot), lane_of(itae_, slot));
   size_ -= slots;

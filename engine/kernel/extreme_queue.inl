@@ -7,11 +7,15 @@
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
-/// A signal on a panel: f, with f' per dead time and at least its sum of |c_k|, k >= 1.
+/// A signal on a panel: f, with f' per dead time and at least its sum of |c_k|, k >= 1. In place of f's first coefficient
+/// its mean counts.
 struct Signal {
   const Series& f;
   const Series& slope;
-  Lanes slope_rest;
+  Lanes mean, slope_rest;
+
+  Lanes start() const { return mean + (value_at_start(f) - f[0]); }
+  Lanes end() const { return mean + (value_at_end(f) - f[0]); }
 };
 
 class ShapeMeter;
@@ -19,9 +23,11 @@ class ShapeMeter;
 class ExtremeQueue {
  public:
   /// `start`: f' at the panel's start, or where it is 0 there, at its end.
+  template <int degree>
   void push(ShapeMeter& meter, unsigned lanes, const Signal& signal, double half, Lanes start) {
-    slope_.push(signal.slope, lanes, size_);
-    mean_.push(signal.f[0], lanes, size_);
+    is_smooth_ = degree == kSmoothDegree && (is_smooth_ || size_ == 0);
+    slope_.push<degree>(signal.slope, lanes, size_);
+    mean_.push(signal.mean, lanes, size_);
     start_.push(start, lanes, size_);
     half_.push_all(half, size_);
     for (unsigned left = lanes; left != 0; left &= left - 1, ++size_) {
@@ -37,10 +43,13 @@ class ExtremeQueue {
 
  private:
   static constexpr int kMostFound = 2 << kHalvings;
+  template <int degree>
   struct Visitor;
 
-  /// The first `slots` lanes that wait.
-  void search(int slots);
+  /// The first `slots` lanes that wait. A lane of the lower degree gets the same bits either way: it only adds zeros.
+  void search(int slots) { is_smooth_ ? search_as<kSmoothDegree>(slots) : search_as<kDegree>(slots); }
+  template <int degree>
+  void search_as(int slots);
   /// Slots were filled in order of time: in that order they report, also two of one lane.
   void report(int slots);
 
@@ -49,16 +58,18 @@ class ExtremeQueue {
   ShapeMeter* meter_[2 * kLanes];
   int lane_[2 * kLanes];
   int size_ = 0;
-  unsigned falling_ = 0;                ///< of the slots in search, the direction so far
-  double found_[kMostFound][kLanes];    ///< extremes of a slot, in order of time
+  bool is_smooth_ = false;            ///< all that waits has degree kSmoothDegree
+  unsigned falling_ = 0;              ///< of the slots in search, the direction so far
+  double found_[kMostFound][kLanes];  ///< extremes of a slot, in order of time
   int count_[kLanes] = {};
 };
 
 /// What zeros.inl finds of the slopes.
+template <int degree>
 struct ExtremeQueue::Visitor {
   ExtremeQueue& queue;
   Lanes half;
-  const Series& f;
+  const Powers<kDegree>& f;
 
   void keeps_sign(const Series& slope, const Part& part, Mask mask) { go_on(slope[0], part, bits(mask)); }
 
@@ -67,17 +78,17 @@ struct ExtremeQueue::Visitor {
     const Mask starts = abs(ends.left) > Lanes(0.0), moves = starts | (abs(ends.right) > Lanes(0.0));
     go_on(select(starts, ends.left, ends.right), part, bits(mask & moves));
     if (!any(crosses)) return;
-    const Zero zero = zero_of(slope, ends, crosses);
+    const Zero zero = zero_of<degree>(slope, ends, crosses);
     // From x on Newton's last step adds half of itself times f'; f' by the panel's x.
     const Lanes left_over = Lanes(0.5) * half * part.half * zero.step * zero.here;
-    note(value(f, part.at(zero.x)) + left_over, bits(crosses));
+    note(f.value(part.at(zero.x)) + left_over, bits(crosses));
     queue.falling_ ^= bits(crosses);
   }
 
   /// A zero on the very edge between two parts shows only by the direction.
   void go_on(Lanes slope, const Part& part, unsigned lanes) {
     const unsigned falls = negative_bits(slope), turned = lanes & (falls ^ queue.falling_);
-    if (turned != 0) note(value(f, part.start()), turned);
+    if (turned != 0) note(f.value(part.start()), turned);
     queue.falling_ = (queue.falling_ & ~lanes) | (falls & lanes);
   }
 
@@ -89,14 +100,16 @@ struct ExtremeQueue::Visitor {
   }
 };
 
-inline void ExtremeQueue::search(int slots) {
+template <int degree>
+inline void ExtremeQueue::search_as(int slots) {
   Series slope, f;
   slope_.get_first(slope);
   const Lanes half = half_.first();
   set_integral(f, slope, half, mean_.first());
   falling_ = negative_bits(start_.first());
-  Visitor visitor{*this, half, f};
-  search_zeros(slope, {Lanes(0.0), Lanes(1.0)}, Mask::from((1u << slots) - 1), kHalvings, visitor);
+  const Powers<kDegree> powers(f);
+  Visitor<degree> visitor{*this, half, powers};
+  search_zeros<degree>(slope, {Lanes(0.0), Lanes(1.0)}, Mask::from((1u << slots) - 1), kHalvings, visitor);
   report(slots);
 }
 

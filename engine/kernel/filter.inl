@@ -19,14 +19,22 @@ struct Derivatives {
   const Series* at[4] = {};
 };
 
+/// One coefficient of a lag's signals from another.
+struct LagFormula {
+  Lanes tau, rate;
+  /// v^(i) from h^(i) and v^(i+1).
+  Lanes below(Lanes h, Lanes derivative) const { return mul_sub_from(tau, derivative, h); }
+  /// v^(i+1) from h^(i) and v^(i).
+  Lanes above(Lanes h, Lanes v) const { return rate * (h - v); }
+};
+
 class Filter {
  public:
   /// Derivatives of the output up to `highest` are asked for. level 0, or one below `highest`.
   void begin(int order, Lanes tau, int level, int highest) {
     order_ = order;
     level_ = level, highest_ = highest;
-    tau_ = tau;
-    rate_ = Lanes(1.0) / tau;
+    formula_ = {tau, Lanes(1.0) / tau};
     for (Lanes& x : state_) x = Lanes(0.0);
   }
 
@@ -36,7 +44,7 @@ class Filter {
     for (int i = 0; i < level_; ++i) input[i] = value_at_start(*h.at[i]);
     for (int lag = 0; lag < order_; ++lag) {
       output[0] = Lanes(0.0);
-      for (int i = 0; i < level_; ++i) output[i + 1] = above(input[i], output[i]);
+      for (int i = 0; i < level_; ++i) output[i + 1] = formula_.above(input[i], output[i]);
       state_[lag] = output[level_];
       for (int i = 0; i < level_; ++i) input[i] = output[i];
     }
@@ -57,18 +65,15 @@ class Filter {
   }
   void advance_last(double half_length, Lanes mean_slope) { advance(order_ - 1, half_length, mean_slope); }
 
-  /// v^(i) from h^(i) and v^(i+1), a coefficient.
-  Lanes below(Lanes h, Lanes derivative) const { return mul_sub_from(tau_, derivative, h); }
-  /// v^(i+1) from h^(i) and v^(i).
-  Lanes above(Lanes h, Lanes v) const { return rate_ * (h - v); }
+  const LagFormula& formula() const { return formula_; }
 
   template <int degree>
   void set_below(Series& v, const Series& h, const Series& derivative) const {
-    for (int k = 0; k <= degree; ++k) v[k] = below(h[k], derivative[k]);
+    for (int k = 0; k <= degree; ++k) v[k] = formula_.below(h[k], derivative[k]);
   }
   template <int degree>
   void set_above(Series& derivative, const Series& h, const Series& v) const {
-    for (int k = 0; k <= degree; ++k) derivative[k] = above(h[k], v[k]);
+    for (int k = 0; k <= degree; ++k) derivative[k] = formula_.above(h[k], v[k]);
   }
 
  private:
@@ -87,7 +92,7 @@ class Filter {
   }
 
   int order_ = 0, level_ = 0, highest_ = 1;
-  Lanes tau_, rate_;
+  LagFormula formula_;
   Lanes state_[kernel::kMaxFilters];  ///< of every lag the derivative of order `level_`, at the panel's start
   Series rows_[2][5];
 };

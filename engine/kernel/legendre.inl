@@ -53,10 +53,11 @@ struct Ends {
   Lanes left, right;
 };
 
+template <int degree = kDegree>
 inline Ends ends_of(const Series& f) {
   Lanes even = f[0], odd = f[1];
-  for (int k = 2; k < kTerms; k += 2) even += f[k];
-  for (int k = 3; k < kTerms; k += 2) odd += f[k];
+  for (int k = 2; k <= degree; k += 2) even += f[k];
+  for (int k = 3; k <= degree; k += 2) odd += f[k];
   return {even - odd, even + odd};
 }
 
@@ -85,10 +86,11 @@ inline Lanes value(const Series& f, Lanes x) {
 }
 
 /// Sum of |c_k| from k = `from` on: f without its first terms is nowhere larger.
+template <int degree = kDegree>
 inline Lanes rest_bound(const Series& f, int from) {
   Lanes a = abs(f[from]), b = abs(f[from + 1]);
-  for (int k = from + 2; k < kTerms; k += 2) a += abs(f[k]);
-  for (int k = from + 3; k < kTerms; k += 2) b += abs(f[k]);
+  for (int k = from + 2; k <= degree; k += 2) a += abs(f[k]);
+  for (int k = from + 3; k <= degree; k += 2) b += abs(f[k]);
   return a + b;
 }
 
@@ -101,11 +103,12 @@ struct IntegralWeights {
 };
 
 /// to = d/dx f.
+template <int degree = kDegree>
 inline void set_derivative(Series& to, const Series& f) {
   // d_k/(2k+1) = c_{k+1} + d_{k+2}/(2k+5)
   Lanes even = 0.0, odd = 0.0;
-  to[kDegree] = 0.0;
-  for (int k = kDegree - 1; k >= 0; --k) {
+  to[degree] = 0.0;
+  for (int k = degree - 1; k >= 0; --k) {
     Lanes& sum = k % 2 == 0 ? even : odd;
     sum += f[k + 1];
     to[k] = Lanes(2.0 * k + 1) * sum;
@@ -145,8 +148,9 @@ inline Extent parabola_extent(Lanes c0, Lanes c1, Lanes c2) {
 }
 
 /// Lanes in which f certainly has no zero: its parabola keeps further from 0 than the other terms can reach.
+template <int degree = kDegree>
 inline Mask has_no_zero(const Series& f) {
-  const Lanes rest = rest_bound(f, 3);
+  const Lanes rest = rest_bound<degree>(f, 3);
   const Extent e = parabola_extent(f[0], f[1], f[2]);
   return (e.low > rest) | (-e.high > rest);
 }
@@ -179,18 +183,20 @@ constexpr HalvingTable make_halving_table() {
 
 inline constexpr HalvingTable kHalving = make_halving_table();
 
+template <int degree = kDegree>
 inline void set_left_half(Series& to, const Series& f) {
-  for (int j = 0; j < kTerms; ++j) {
+  for (int j = 0; j <= degree; ++j) {
     Lanes sum = 0.0;
-    for (int k = j; k < kTerms; ++k) sum = mul_add(f[k], Lanes(kHalving.left[k][j]), sum);
+    for (int k = j; k <= degree; ++k) sum = mul_add(f[k], Lanes(kHalving.left[k][j]), sum);
     to[j] = sum;
   }
 }
 
+template <int degree = kDegree>
 inline void set_right_half(Series& to, const Series& f) {
-  for (int j = 0; j < kTerms; ++j) {
+  for (int j = 0; j <= degree; ++j) {
     Lanes sum = 0.0;
-    for (int k = j; k < kTerms; ++k) {
+    for (int k = j; k <= degree; ++k) {
       const double sign = (k + j) % 2 == 0 ? 1 : -1;
       sum = mul_add(f[k], Lanes(sign * kHalving.left[k][j]), sum);
     }
@@ -199,16 +205,19 @@ inline void set_right_half(Series& to, const Series& f) {
 }
 
 /// to = the polynomial nearest in the mean to `left` and `right`, the halves of one panel: the transpose of halving, with
-/// the norms of P_k between. REQUIRES: to is neither of them.
+/// the norms of P_k between. `to` may be one of them.
 inline void set_joined(Series& to, const Series& left, const Series& right) {
+  Lanes even[kTerms], odd[kTerms];  // halves of an even function agree here, of an odd one there
+  for (int k = 0; k < kTerms; ++k) {
+    const double weight = 0.5 / (2 * k + 1);
+    even[k] = Lanes(weight) * (left[k] + right[k]);
+    odd[k] = Lanes(weight) * (left[k] - right[k]);
+  }
   for (int j = 0; j < kTerms; ++j) {
-    Lanes sum = 0.0;
-    for (int k = 0; k <= j; ++k) {
-      const double weight = 0.5 * (2 * j + 1) / (2 * k + 1) * kHalving.left[j][k];
-      const Lanes both = (k + j) % 2 == 0 ? left[k] + right[k] : left[k] - right[k];
-      sum = mul_add(both, Lanes(weight), sum);
-    }
-    to[j] = sum;
+    Lanes a = 0.0, b = 0.0;
+    for (int k = j; k >= 0; k -= 2) a = mul_add(even[k], Lanes((2 * j + 1) * kHalving.left[j][k]), a);
+    for (int k = j - 1; k >= 0; k -= 2) b = mul_add(odd[k], Lanes((2 * j + 1) * kHalving.left[j][k]), b);
+    to[j] = a + b;
   }
 }
 

@@ -1,17 +1,18 @@
 #include "engine/kernel/measure.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/base/check.h"
 #include "engine/kernel/margins.h"
 
 namespace portrait::kernel {
+namespace {
 
-void measure(const Implementation& implementation, const LoopFamily& family, Horizon horizon,
-             std::span<const Setting> settings, std::span<Measured> results) {
-  PORTRAIT_CHECK_EQ(settings.size(), results.size());
-  std::vector<LoopMargins> margins(settings.size());
-  find_margins(implementation, family, settings, margins);
+/// The others are unstable.
+void measure_stable(const Implementation& implementation, const LoopFamily& family, Horizon horizon,
+                    std::span<const Setting> settings, std::span<const LoopMargins> margins,
+                    std::span<Measured> results) {
   std::vector<Setting> stable;
   std::vector<std::size_t> place;
   for (std::size_t i = 0; i < settings.size(); ++i) {
@@ -22,10 +23,25 @@ void measure(const Implementation& implementation, const LoopFamily& family, Hor
   }
   std::vector<Measured> found(stable.size());
   measure_responses(implementation, family, stable, horizon, found);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const Measure m : kMarginMeasures) found[i].measures[m] = margins[place[i]].measures[m];
-    results[place[i]] = found[i];
-  }
+  for (std::size_t i = 0; i < found.size(); ++i) results[place[i]] = found[i];
+}
+
+}  // namespace
+
+void measure(const Implementation& implementation, const LoopFamily& family, Horizon horizon,
+             std::span<const Setting> settings, std::span<Measured> results) {
+  PORTRAIT_CHECK_EQ(settings.size(), results.size());
+  std::vector<LoopMargins> margins(settings.size());
+  find_margins(implementation, family, settings, margins);
+  const bool all_stable =
+      std::all_of(margins.begin(), margins.end(), [](const LoopMargins& m) { return m.stable; });
+  if (all_stable)
+    measure_responses(implementation, family, settings, horizon, results);
+  else
+    measure_stable(implementation, family, horizon, settings, margins, results);
+  for (std::size_t i = 0; i < margins.size(); ++i)
+    if (margins[i].stable)
+      for (const Measure m : kMarginMeasures) results[i].measures[m] = margins[i].measures[m];
 }
 
 }  // namespace portrait::kernel

@@ -1,8 +1,8 @@
 /// The panels of a dead time and what is prepared for each: weights of integration, solvers of the lags.
 #pragma once
 
+#include "engine/kernel/legendre.inl"
 #include "engine/kernel/pack.h"
-#include "engine/kernel/prefilter.inl"
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
@@ -10,7 +10,14 @@ struct Panel {
   double start, half;  ///< of the panel in its dead time; half its length
   IntegralWeights weights;
   Lag filter, plant;
-  Prefilter prefilter;
+
+  /// Another panel of the same length has the same solvers.
+  void solve_as(const Panel& other) {
+    half = other.half;
+    weights = other.weights;
+    filter = other.filter;
+    plant = other.plant;
+  }
 };
 
 /// Lengths of the panels of a mesh, from left to right. `lengths` holds panels_of(mesh).

@@ -15,7 +15,7 @@ struct Output {
   ErrorSums sums;          ///< of y
 
   void begin() {
-    set_zero(y), set_zero(y1), set_zero(y2), set_zero(y3), set_zero(u), set_zero(u1);
+    set_zero(y), set_zero(y1), set_zero(y2), set_zero(y3);
     sum_up();
   }
   /// From now on series end at `degree`.
@@ -62,10 +62,7 @@ class Flattening {
   }
 
   void join(Output& to, Output& left, Output& right) {
-    for (int i = 0; i < rows_; ++i) {
-      set_joined(joined_, row(left, i), row(right, i));
-      copy(row(to, i), joined_);
-    }
+    for (int i = 0; i < rows_; ++i) set_joined(row(to, i), row(left, i), row(right, i));
   }
 
   void move(Output& to, Output& from) {
@@ -75,7 +72,6 @@ class Flattening {
   }
 
   int rows_;
-  Series joined_;
 };
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -62,7 +62,7 @@ struct PackResult {
   PackColumn late;
   PackColumn tail;         ///< largest last coefficients as a part of the signal: how far from resolved
   PackColumn smooth_tail;  ///< the same from `smooth_from` on
-  PackColumn dead_times;  ///< simulated
+  PackColumn dead_times;   ///< simulated
 };
 
 /// Open loops, all with integral action or all without.

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFaded = 1e-9;
 constexpr int kAllIntervals = 1 << 30;
 /// Few different numbers, so that many settings share one.
-constexpr std::array kIntervalCounts = {2, 3, 4, 5, 6, 8, 12, 16, 24, 32, 48, 64};
+constexpr std::array kIntervalCounts = {2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32, 48, 64};
 
 int rounded_up(double intervals) {
   for (const int count : kIntervalCounts)

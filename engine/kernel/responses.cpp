@@ -73,12 +73,12 @@ double fastest(const LoopFamily& family, const Setting& s, SetpointRun run) {
 /// Settings that may lie side by side in a pack.
 struct Kind {
   SetpointRun run;
-  bool one_term;   ///< y_w is g0 int v alone, which the kernel treats apart
+  int terms;  ///< y_w is g0 int v and so many terms more: how many derivatives of v are asked for depends on it
   double horizon;  ///< dead times; of an automatic one as far as this attempt goes
   Resolution resolution;
 
   auto key() const {
-    return std::tuple(run, one_term, horizon, resolution.mesh.graded, resolution.mesh.halved,
+    return std::tuple(run, terms, horizon, resolution.mesh.graded, resolution.mesh.halved,
                       resolution.layered_intervals, resolution.smooth_from);
   }
 };
@@ -94,7 +94,8 @@ Kind kind_of(const LoopFamily& family, const Setting& s, Horizon horizon) {
   const SetpointRun run = setpoint_run(family, s);
   const Gains g = setpoint_gains(family, s);
   const double dead_times = horizon.automatic ? kAutomaticHorizons.front() : horizon.dead_times;
-  return {run, g.g1 == 0 && g.g2 == 0, dead_times, first_resolution({family, s}, fastest(family, s, run))};
+  const int terms = g.g2 != 0 ? 2 : g.g1 != 0 ? 1 : 0;
+  return {run, terms, dead_times, first_resolution({family, s}, fastest(family, s, run))};
 }
 
 void fill_lane(Pack& pack, std::size_t lane, const Loop& loop) {
@@ -139,8 +140,7 @@ void take(const StepColumns& c, std::size_t lane, bool error_vanishes, const Ste
   row[names.y_max] = c.y_max[lane], row[names.u_max] = c.u_max[lane];
 }
 
-Measured measured(const Pack& pack, const PackResult& result, std::size_t lane, bool automatic) {
-  Measured m;
+void fill(Measured& m, const Pack& pack, const PackResult& result, std::size_t lane, bool automatic) {
   m.resolved = result.tail[lane] <= kResolved && result.smooth_tail[lane] <= kResolved;
   const bool ended_early = result.dead_times[lane] < pack.horizon;
   const bool settled = automatic ? ended_early : result.late[lane] <= kSettlingBand;
@@ -148,7 +148,6 @@ Measured measured(const Pack& pack, const PackResult& result, std::size_t lane, 
   m.horizon = automatic ? result.dead_times[lane] : pack.horizon;
   take(result.w, lane, pack.y_rest_w[lane] == 1, kSetpointMeasures, m.measures);
   take(result.d, lane, pack.y_rest_d[lane] == 0, kDisturbanceMeasures, m.measures);
-  return m;
 }
 
 /// A setting still to be measured.
@@ -166,14 +165,17 @@ class Measurement {
         settings_(settings),
         horizon_(horizon),
         results_(results) {
+    tasks_.reserve(settings.size());
+    for (Measured& m : results) m.measures = {};
     for (std::size_t i = 0; i < settings.size(); ++i) tasks_.push_back({i, kind_of(family, settings[i], horizon)});
   }
 
   /// Settings of one kind go side by side; those that are not resolved come back on finer panels.
   void run() {
     while (!tasks_.empty()) {
-      std::stable_sort(tasks_.begin(), tasks_.end(),
-                       [](const Task& a, const Task& b) { return a.kind.key() < b.kind.key(); });
+      const auto in_order = [](const Task& a, const Task& b) { return a.kind.key() < b.kind.key(); };
+      if (!std::is_sorted(tasks_.begin(), tasks_.end(), in_order))
+        std::stable_sort(tasks_.begin(), tasks_.end(), in_order);
       const std::vector<Task> tasks = std::exchange(tasks_, {});
       for (auto first = tasks.begin(); first != tasks.end();) {
         const auto last =
@@ -197,14 +199,16 @@ class Measurement {
       fill_lane(pack, lane, {family_, settings_[tasks[std::min(lane, tasks.size() - 1)].setting]});
     PackResult result;
     implementation_.run(pack, result);
-    for (std::size_t lane = 0; lane < tasks.size(); ++lane) {
-      Measured& m = results_[tasks[lane].setting];
-      m = measured(pack, result, lane, horizon_.automatic);
-      if (!m.resolved)
-        try_finer(tasks[lane], result.tail[lane] <= kResolved);
-      else if (horizon_.automatic && m.status == Status::not_settled && pack.horizon < kHorizonCap)
-        try_longer(tasks[lane]);
-    }
+    for (std::size_t lane = 0; lane < tasks.size(); ++lane) take_result(tasks[lane], pack, result, lane);
+  }
+
+  void take_result(const Task& task, const Pack& pack, const PackResult& result, std::size_t lane) {
+    Measured& m = results_[task.setting];
+    fill(m, pack, result, lane, horizon_.automatic);
+    if (!m.resolved)
+      try_finer(task, result.tail[lane] <= kResolved);
+    else if (horizon_.automatic && m.status == Status::not_settled && pack.horizon < kHorizonCap)
+      try_longer(task);
   }
 
   void try_finer(Task task, bool all_but_smooth_part) {

@@ -8,6 +8,9 @@
 ///     u_w = y_w''(t + 1)  (dipdt),   y_w'(t + 1)  (ipdt),   tau_1 y_w'(t + 1) + y_w(t + 1)  (fotd)
 ///
 /// with g = (kappa/tau_i) (1, b, c) behind the prefilter `full`. Other prefilters that cancel give other g.
+///
+/// A panel of interval k thus gives u_d and y_w of interval k, u_w of the one before, y_d of the one after: it is first
+/// advanced, then watched.
 #pragma once
 
 #include "engine/kernel/chain.inl"
@@ -25,7 +28,17 @@ using kernel::SetpointRun;
 template <PlantKind plant, bool filtered, bool disturbed>
 class Run {
  public:
-  Run(const Pack& pack, StepMeters& w, StepMeters& d) : pack_(pack), span_(pack.horizon), w_(w), d_(d) { set_up(); }
+  Run(const Pack& pack, StepMeters& w, StepMeters& d) : pack_(pack), span_(pack.horizon), w_(w), d_(d) {
+    both_ = disturbed && pack.setpoint_run == SetpointRun::from_disturbance;
+    if (both_) derived_.begin(pack);
+    if (!disturbed) setpoint_.begin(pack);
+    chain_.begin(pack, both_ ? derived_.extra(plant) : 0, !both_ || derived_.is_scaled());
+    chain_.load = disturbed ? 1.0 : 0.0;
+    active_ = quiet_ = Mask::from(kAllLanes);
+    set_mesh(pack.mesh);
+    for (int p = 0; p < panel_count_; ++p) outputs_[p].begin();
+    for (int p = 0; p < panel_count_; ++p) watch_output<kDegree>(0, p, false);
+  }
 
   /// Feeds the meters of one step, or of both, up to the horizon.
   void to_horizon() {
@@ -41,16 +54,15 @@ class Run {
   Lanes dead_times = 0.0;
 
  private:
-  void set_up() {
-    both_ = disturbed && pack_.setpoint_run == SetpointRun::from_disturbance;
-    if (both_) derived_.begin(pack_);
-    if (!disturbed) setpoint_.begin(pack_);
-    chain_.begin(pack_, both_ ? derived_.extra(plant) : 0);
-    chain_.load = disturbed ? 1.0 : 0.0;
-    active_ = Mask::from(kAllLanes);
-    set_mesh(pack_.mesh);
-    for (int p = 0; p < panel_count_; ++p) outputs_[p].begin();
-  }
+  static constexpr int kRelativeDegree = plant == PlantKind::dipdt ? 2 : plant == PlantKind::ipdt ? 1 : 0;
+
+  /// u jumps after every dead time where an ideal derivative meets a plant that passes jumps on.
+  static constexpr bool kInputJumps = !filtered && plant != PlantKind::dipdt;
+
+  /// Whether it is asked after this interval which lanes are at rest.
+  static bool looks(int k) { return k % 8 == 7; }
+
+  StepMeters& own() { return disturbed ? d_ : w_; }
 
   void set_mesh(const kernel::Mesh& mesh) {
     panel_count_ = panels_of(mesh);
@@ -60,12 +72,19 @@ class Run {
     for (int p = 0; p < panel_count_; start += lengths[p++]) {
       Panel& panel = panels_[p];
       panel.start = start;
-      panel.half = 0.5 * lengths[p];
-      panel.weights.prepare(panel.half);
-      if (filtered) panel.filter.prepare(Lanes::from(pack_.tau_f), panel.half);
-      if (plant == PlantKind::fotd) panel.plant.prepare(Lanes::from(pack_.tau_1), panel.half);
-      if (!disturbed) setpoint_.prepare(panel.prefilter, panel.half);
+      if (!disturbed) setpoint_.prepare(prefilters_[p], 0.5 * lengths[p]);
+      if (p > 0 && lengths[p] == lengths[p - 1])
+        panel.solve_as(panels_[p - 1]);
+      else
+        prepare(panel, 0.5 * lengths[p]);
     }
+  }
+
+  void prepare(Panel& panel, double half) {
+    panel.half = half;
+    panel.weights.prepare(half);
+    if (filtered) panel.filter.prepare(Lanes::from(pack_.tau_f), half);
+    if (plant == PlantKind::fotd) panel.plant.prepare(Lanes::from(pack_.tau_1), half);
   }
 
   /// Layers have faded: from here on panels are as long as smooth signals allow.
@@ -77,6 +96,14 @@ class Run {
     set_mesh({0, pack_.mesh.halved});
   }
 
+  /// Nothing fast is left: series end at a lower degree.
+  void begin_smooth() {
+    for (int p = 0; p < panel_count_; ++p) outputs_[p].cut_at(kSmoothDegree);
+    chain_.cut_at(kSmoothDegree);
+    own().begin_smooth();
+    if (both_) w_.begin_smooth();
+  }
+
   /// Lanes whose signals all stay at rest need no more intervals.
   void rest_when_quiet() {
     if (!any(quiet_)) return;
@@ -85,48 +112,51 @@ class Run {
     active_ = but_not(active_, quiet_);
   }
 
-  /// Nothing fast is left: series end at a lower degree.
-  void begin_smooth() {
-    for (int p = 0; p < panel_count_; ++p) outputs_[p].cut_at(kSmoothDegree);
-    chain_.cut_at(kSmoothDegree);
-    if (disturbed) d_.begin_smooth();
-    if (both_ || !disturbed) w_.begin_smooth();
-  }
-
   template <int degree>
   void interval(int k) {
-    const bool look = k % 8 == 7;
     quiet_ = active_;
-    for (int p = 0; p < panel_count_; ++p) panel<degree>(k, p, look);
+    for (int p = 0; p < panel_count_; ++p) {
+      advance<degree>(k, p);
+      watch<degree>(k, p);
+    }
     dead_times = select(active_, Lanes(k + 1.0), dead_times);
-    if (look) rest_when_quiet();
+    if (looks(k)) rest_when_quiet();
   }
 
   template <int degree>
-  void panel(int k, int p, bool look) {
-    const Panel& panel = panels_[p];
+  __attribute__((noinline)) void advance(int k, int p) {
     Output& z = outputs_[p];
-    const bool counts = reaches(k, p);
-    const Place at = place(k, p, look);
-    if (counts) watch_output<degree>(z, at);
-    run_chain<degree>(panel, z, p == 0 && k == (disturbed ? 1 : 0));
-    if (both_) derive_setpoint<degree>(k, p, at);
+    run_chain<degree>(panels_[p], p, z, p == 0 && k == (disturbed ? 1 : 0));
     Series& u = plant_input<plant>(z);
-    if (counts)
-      watch_signal<degree>(disturbed ? d_.u : w_.u, {u, plant_input_slope<plant>(z), chain_.u1_rest}, at, kInputJumps,
-                           active_, quiet_);
+    input_mean_ = u[0];
     if (plant != PlantKind::fotd) u[0] += chain_.load;
+    if (both_ && !derived_.is_scaled()) derive_output();
+    if (both_ && (plant == PlantKind::fotd || !derived_.is_scaled())) derive_input<degree>();
+  }
+
+  template <int degree>
+  __attribute__((noinline)) void watch(int k, int p) {
+    const bool begun = k >= 2 || (k == 1 && p > 0);
+    if (!kInputJumps && begun && k + 1 < span_.late_from && !looks(k)) return watch_inside<degree>(k, p);
+    chain_.template complete_input<degree>(panels_[p], outputs_[p]);
+    watch_output<degree>(k + 1, p, looks(k));
+    if (both_) {
+      watch_signal_of<degree>(w_.y, derived_output_signal(), k, p, looks(k), false);
+      watch_error_of(w_.e, derived_error(), k, p);
+      watch_signal_of<degree>(w_.u, derived_input_signal(), k - 1, p, looks(k), kInputJumps);
+    }
+    watch_signal_of<degree>(own().u, input_signal(p), k, p, looks(k), kInputJumps);
   }
 
   /// `begins`: up to here the controller saw nothing.
   template <int degree>
-  void run_chain(const Panel& panel, Output& z, bool begins) {
+  void run_chain(const Panel& panel, int p, Output& z, bool begins) {
     if constexpr (disturbed) {
       const Derivatives h{{&z.y, &z.y1, &z.y2, &z.y3}};
       if (begins) chain_.enter(h);
       chain_.template run<degree>(panel, h, z.y1, z);
     } else {
-      subtract_setpoint(panel, z);
+      subtract_setpoint(panel, p, z);
       const Derivatives h{{&error_, filtered ? &error1_ : &z.y1, &z.y2, nullptr}};
       if (begins) chain_.enter(h);
       chain_.template run<degree>(panel, h, error1_, z);
@@ -134,20 +164,119 @@ class Run {
   }
 
   /// h = y - r and h' = y' - r'.
-  void subtract_setpoint(const Panel& panel, const Output& z) {
-    setpoint_.next(panel.prefilter, panel.half);
+  void subtract_setpoint(const Panel& panel, int p, const Output& z) {
+    setpoint_.next(prefilters_[p], panel.half);
     for (int k = 0; k < kTerms; ++k) {
       error_[k] = z.y[k] - setpoint_.r[k];
       error1_[k] = z.y1[k] - setpoint_.r1[k];
     }
   }
 
+  void derive_output() {
+    derived_.set(y_, 0, chain_);
+    derived_.set(y1_, 1, chain_);
+    y_rest_ = rest_bound(y_, 1), y1_rest_ = rest_bound(y1_, 1);
+    y_sums_ = error_sums_of(y_);
+  }
+
+  template <int degree>
+  void derive_input() {
+    if constexpr (plant == PlantKind::fotd) {
+      derive_input_of_lag<degree>();
+    } else {
+      derived_.set(u_, kRelativeDegree, chain_);
+      derived_.set(u1_, kRelativeDegree + 1, chain_);
+    }
+    u1_rest_ = rest_bound(u1_, 1);
+  }
+
+  /// tau_1 y_w' + y_w and its slope.
+  template <int degree>
+  void derive_input_of_lag() {
+    const Lanes tau_1 = Lanes::from(pack_.tau_1);
+    if (derived_.is_scaled()) {
+      for (int k = 0; k <= degree; ++k) {
+        u_[k] = mul_add(tau_1, chain_.v[k], chain_.sum[k]);
+        u1_[k] = mul_add(tau_1, chain_.v1[k], chain_.v[k]);
+      }
+      return set_zero_above(u_, degree), set_zero_above(u1_, degree);
+    }
+    derived_.set(y2_, 2, chain_);
+    copy(u_, y_), copy(u1_, y1_);
+    add_scaled(u_, tau_1, y1_);
+    add_scaled(u1_, tau_1, y2_);
+  }
+
+  /// A panel inside the response, where no meter does anything but watch.
+  template <int degree>
+  void watch_inside(int k, int p) {
+    const double half = panels_[p].half, middle = k + panels_[p].start + half;
+    const unsigned on = bits(active_);
+    StepMeters& m = own();
+    if (both_) watch_derived_inside<degree>(panels_[p], middle, on);
+    const Signal y = output_signal(p), u = input_signal(p);
+    const Error e = output_error(p);
+    const auto y_seen = m.y.template see<degree>(y, active_), u_seen = m.u.template see<degree>(u, active_);
+    const unsigned e_open = m.e.see(e, middle + 1, half, active_);
+    if (!m.u.goes_on(u_seen, on)) {
+      chain_.template complete_input<degree>(panels_[p], outputs_[p]);
+      m.u.take_in(u_seen, u, half, on);
+    }
+    if (m.y.goes_on(y_seen, on) & (e_open == 0)) return;
+    m.y.take_in(y_seen, y, half, on);
+    if (e_open != 0) m.e.look_at(e_open, e, middle + 1, half);
+  }
+
+  template <int degree>
+  void watch_derived_inside(const Panel& panel, double middle, unsigned on) {
+    const Signal y = derived_output_signal(), u = derived_input_signal();
+    const Error e = derived_error();
+    const auto y_seen = w_.y.template see<degree>(y, active_), u_seen = w_.u.template see<degree>(u, active_);
+    const unsigned e_open = w_.e.see(e, middle, panel.half, active_);
+    if (w_.y.goes_on(y_seen, on) & w_.u.goes_on(u_seen, on) & (e_open == 0)) return;
+    chain_.template complete_sum<degree>(panel);
+    w_.y.take_in(y_seen, y, panel.half, on);
+    w_.u.take_in(u_seen, u, panel.half, on);
+    if (e_open != 0) w_.e.look_at(e_open, e, middle, panel.half);
+  }
+
+  Signal output_signal(int p) const {
+    const Output& z = outputs_[p];
+    return {z.y, z.y1, z.y[0], z.slope_rest};
+  }
+  Error output_error(int p) const { return {outputs_[p].y, outputs_[p].rest, outputs_[p].sums}; }
+  Signal input_signal(int p) {
+    Output& z = outputs_[p];
+    return {plant_input<plant>(z), plant_input_slope<plant>(z), input_mean_, chain_.u1_rest};
+  }
+
+  Signal derived_output_signal() const {
+    if (derived_.is_scaled()) return {chain_.sum, chain_.v, chain_.sum[0], chain_.v_rest};
+    return {y_, y1_, y_[0], y1_rest_};
+  }
+  Error derived_error() const {
+    if (derived_.is_scaled()) return {chain_.sum, chain_.sum_rest, chain_.of_sum};
+    return {y_, y_rest_, y_sums_};
+  }
+  Signal derived_input_signal() const {
+    if (plant == PlantKind::fotd || !derived_.is_scaled()) return {u_, u1_, u_[0], u1_rest_};
+    if (kRelativeDegree == 2) return {chain_.v1, chain_.v2, chain_.v1[0], chain_.v2_rest};
+    return {chain_.v, chain_.v1, chain_.v[0], chain_.v1_rest};
+  }
+
   /// y, and e = 0 - y or 1 - y.
   template <int degree>
-  void watch_output(const Output& z, const Place& at) {
-    StepMeters& m = disturbed ? d_ : w_;
-    watch_signal<degree>(m.y, {z.y, z.y1, z.slope_rest}, at, false, active_, quiet_);
-    watch_error(m.e, {z.y, z.rest, z.sums}, at, active_);
+  void watch_output(int k, int p, bool look) {
+    watch_signal_of<degree>(own().y, output_signal(p), k, p, look, false);
+    watch_error_of(own().e, output_error(p), k, p);
+  }
+
+  template <int degree>
+  void watch_signal_of(ShapeMeter& meter, const Signal& s, int k, int p, bool look, bool may_jump) {
+    if (reaches(k, p)) watch_signal<degree>(meter, s, place(k, p, look), may_jump, active_, quiet_);
+  }
+  void watch_error_of(ErrorMeter& meter, const Error& e, int k, int p) {
+    if (reaches(k, p)) watch_error(meter, e, place(k, p, false), active_);
   }
 
   /// Whether panel p of interval k has a part before the horizon.
@@ -171,76 +300,6 @@ class Run {
     return at;
   }
 
-  /// y_w of this interval, and u_w of the one before.
-  template <int degree>
-  void derive_setpoint(int k, int p, const Place& at) {
-    const bool for_y = reaches(k, p), for_u = reaches(k - 1, p);
-    const bool scaled = derived_.is_scaled();
-    if (for_y && scaled) watch_derived_output<degree>(chain_.sum, chain_.v, chain_.v_rest, chain_.sum_rest, chain_.of_sum, at);
-    if (for_y && !scaled) derive_output<degree>(at);
-    if (!for_u) return;
-    const Place before = place(k - 1, p, at.look);
-    if (!scaled || plant == PlantKind::fotd) return derive_input<degree>(before);
-    const Series& u = kRelativeDegree == 2 ? chain_.v1 : chain_.v;
-    const Series& u1 = kRelativeDegree == 2 ? chain_.v2 : chain_.v1;
-    watch_derived_input<degree>(u, u1, kRelativeDegree == 2 ? chain_.v2_rest : chain_.v1_rest, before);
-  }
-
-  template <int degree>
-  void derive_output(const Place& at) {
-    Series &y = scratch_[0], &y1 = scratch_[1];
-    derived_.set(y, 0, chain_);
-    derived_.set(y1, 1, chain_);
-    watch_derived_output<degree>(y, y1, rest_bound(y1, 1), rest_bound(y, 1), error_sums_of(y), at);
-  }
-
-  template <int degree>
-  void derive_input(const Place& at) {
-    Series &u = scratch_[0], &u1 = scratch_[1];
-    if constexpr (plant == PlantKind::fotd) {
-      derive_input_of_lag<degree>(u, u1);
-    } else {
-      derived_.set(u, kRelativeDegree, chain_);
-      derived_.set(u1, kRelativeDegree + 1, chain_);
-    }
-    watch_derived_input<degree>(u, u1, rest_bound(u1, 1), at);
-  }
-
-  /// tau_1 y_w' + y_w and its slope.
-  template <int degree>
-  void derive_input_of_lag(Series& u, Series& u1) {
-    const Lanes tau_1 = Lanes::from(pack_.tau_1);
-    if (derived_.is_scaled()) {
-      for (int k = 0; k <= degree; ++k) {
-        u[k] = mul_add(tau_1, chain_.v[k], chain_.sum[k]);
-        u1[k] = mul_add(tau_1, chain_.v1[k], chain_.v[k]);
-      }
-      return set_zero_above(u, degree), set_zero_above(u1, degree);
-    }
-    derived_.set(u, 0, chain_);
-    derived_.set(u1, 1, chain_);
-    derived_.set(scratch_[2], 2, chain_);
-    add_scaled(u, tau_1, u1);
-    add_scaled(u1, tau_1, scratch_[2]);
-  }
-
-  template <int degree>
-  void watch_derived_output(const Series& y, const Series& y1, Lanes slope_rest, Lanes rest, const ErrorSums& sums,
-                            const Place& at) {
-    watch_signal<degree>(w_.y, {y, y1, slope_rest}, at, false, active_, quiet_);
-    watch_error(w_.e, {y, rest, sums}, at, active_);
-  }
-
-  template <int degree>
-  void watch_derived_input(const Series& u, const Series& u1, Lanes slope_rest, const Place& at) {
-    watch_signal<degree>(w_.u, {u, u1, slope_rest}, at, kInputJumps, active_, quiet_);
-  }
-
-  static constexpr int kRelativeDegree = plant == PlantKind::dipdt ? 2 : plant == PlantKind::ipdt ? 1 : 0;
-
-  /// u jumps after every dead time where an ideal derivative meets a plant that passes jumps on.
-  static constexpr bool kInputJumps = !filtered && plant != PlantKind::dipdt;
-
   const Pack& pack_;
   Span span_;
   StepMeters &w_, &d_;
@@ -250,64 +309,14 @@ class Run {
   Chain<plant, filtered> chain_;
   DerivedSetpoint derived_;
   FilteredSetpoint setpoint_;
-  Series error_, error1_, scratch_[3];
+  Series error_, error1_;             ///< h and h' of a run of the setpoint's own
+  Series y_, y1_, y2_, u_, u1_;       ///< y_w and u_w where they are not g0 times a series of the chain
+  Lanes y_rest_, y1_rest_, u1_rest_;  ///< at least the sums of |c_k|, k >= 1, of these
+  ErrorSums y_sums_;
+  Lanes input_mean_;  ///< of u, without d
   Panel panels_[kernel::kMaxPanels];
   Output outputs_[kernel::kMaxPanels];
+  Prefilter prefilters_[disturbed ? 1 : kernel::kMaxPanels];
 };
-
-inline void store_step(StepMeters& m, kernel::StepColumns& c) {
-  m.evaluate();
-  m.e.iae().to(c.iae), m.e.ise().to(c.ise), m.e.itae().to(c.itae), m.e.itse().to(c.itse);
-  m.y.variation().to(c.tv_y), m.y.deviation0().to(c.tv0_y), m.y.deviation1().to(c.tv1_y);
-  m.y.deviation2().to(c.tv2_y), m.y.largest().to(c.y_max);
-  m.u.variation().to(c.tv_u), m.u.deviation0().to(c.tv0_u), m.u.deviation1().to(c.tv1_u);
-  m.u.deviation2().to(c.tv2_u), m.u.largest().to(c.u_max);
-}
-
-template <PlantKind plant, bool filtered, bool disturbed>
-__attribute__((noinline)) void run_step(const Pack& pack, StepMeters& w, StepMeters& d, Lanes& dead_times) {
-  Run<plant, filtered, disturbed> run(pack, w, d);
-  run.to_horizon();
-  dead_times = max(dead_times, run.dead_times);
-}
-
-template <PlantKind plant, bool filtered>
-void run_family(const Pack& pack, PackResult& result) {
-  Queues queues;
-  StepMeters w, d;
-  Lanes dead_times = 0.0;
-  w.begin(Lanes::from(pack.y_rest_w), Lanes::from(pack.u_rest_w), 1, scale_of_setpoint(pack), queues);
-  d.begin(Lanes::from(pack.y_rest_d), Lanes::from(pack.u_rest_d), 0, 1.0, queues);
-  run_step<plant, filtered, true>(pack, w, d, dead_times);
-  if (pack.setpoint_run != SetpointRun::from_disturbance) run_step<plant, filtered, false>(pack, w, d, dead_times);
-  dead_times.to(result.dead_times);
-  store_step(w, result.w);
-  store_step(d, result.d);
-  Lanes late = 0.0, tail = 0.0, smooth_tail = 0.0;
-  const ShapeMeter* meters[] = {&w.y, &w.u, &d.y, &d.u};
-  for (const ShapeMeter* m : meters) {
-    late = max(late, m->late_part());
-    tail = max(tail, m->tail_part());
-    smooth_tail = max(smooth_tail, m->smooth_tail_part());
-  }
-  late.to(result.late);
-  tail.to(result.tail);
-  smooth_tail.to(result.smooth_tail);
-}
-
-inline void run(const Pack& pack, PackResult& result) {
-  const bool filtered = pack.n > 0;
-  switch (pack.plant) {
-    case PlantKind::dipdt:
-      return filtered ? run_family<PlantKind::dipdt, true>(pack, result)
-                      : run_family<PlantKind::dipdt, false>(pack, result);
-    case PlantKind::ipdt:
-      return filtered ? run_family<PlantKind::ipdt, true>(pack, result)
-                      : run_family<PlantKind::ipdt, false>(pack, result);
-    case PlantKind::fotd:
-      return filtered ? run_family<PlantKind::fotd, true>(pack, result)
-                      : run_family<PlantKind::fotd, false>(pack, result);
-  }
-}
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

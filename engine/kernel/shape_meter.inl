@@ -47,15 +47,32 @@ class ShapeMeter {
     known_ &= ~jumps;
   }
 
-  /// One panel, of the given half length.
+  /// What a panel shows at first sight: lanes whose slope certainly keeps its sign, and those in which it is negative.
+  struct Sight {
+    unsigned sure, falls;
+  };
+
+  template <int degree>
+  Sight see(const Signal& s, Mask active) {
+    tail_ = select(active, max(tail_, mul_add(kBeforeLast<degree>, abs(s.f[degree - 1]), abs(s.f[degree]))), tail_);
+    mean_ = select(active, max(mean_, abs(s.mean)), mean_);
+    return {bits(active & (abs(s.slope[0]) > s.slope_rest)), negative_bits(s.slope[0])};
+  }
+
+  /// Whether in all of these lanes the signal goes on as before: then a panel needs nothing but to be seen.
+  bool goes_on(const Sight& sight, unsigned on) const {
+    return (((sight.falls ^ falling_) | ~(known_ & sight.sure)) & on) == 0;
+  }
+
+  /// One panel, of the given half length, that has been seen.
+  void take_in(const Sight& sight, const Signal& s, double half, unsigned on) {
+    if (sight.sure != on) return watch_closely(s, half, on, sight.sure);
+    go_on(sight.falls, on, s);
+  }
+
   template <int degree>
   void watch(const Signal& s, double half, Mask active) {
-    const Lanes first = s.slope[0];
-    tail_ = select(active, max(tail_, mul_add(kBeforeLast<degree>, abs(s.f[degree - 1]), abs(s.f[degree]))), tail_);
-    mean_ = select(active, max(mean_, abs(s.f[0])), mean_);
-    const unsigned on = bits(active), sure = on & bits(abs(first) > s.slope_rest);
-    if (sure != on) return watch_closely(s, half, on, sure);
-    go_on(negative_bits(first), on, s);
+    take_in(see<degree>(s, active), s, half, bits(active));
   }
 
   /// The value at an edge of a panel.
@@ -82,7 +99,7 @@ class ShapeMeter {
   /// Lanes in which the signal stays at rest on this panel.
   Mask is_quiet(const Signal& s, double part) const {
     const Lanes size = abs(scale_), largest = max(abs(rest_), size * mean_);
-    return abs(mul_add(scale_, s.f[0], -rest_)) + size * rest_bound(s.f, 1) < Lanes(part) * largest;
+    return abs(mul_add(scale_, s.mean, -rest_)) + size * rest_bound(s.f, 1) < Lanes(part) * largest;
   }
 
   Lanes variation() const { return variation_; }
@@ -120,7 +137,7 @@ class ShapeMeter {
   /// From the panel's start f falls in the lanes of `falls`, and rises in the others of `lanes`.
   void go_on(unsigned falls, unsigned lanes, const Signal& s) {
     const unsigned turned = known_ & lanes & (falls ^ falling_);
-    if (turned != 0) turn(value_at_start(s.f), turned);
+    if (turned != 0) turn(s.start(), turned);
     falling_ = (falling_ & ~lanes) | (falls & lanes);
     known_ |= lanes;
   }
@@ -138,7 +155,8 @@ class ShapeMeter {
     falling_ = (falling_ & ~directed) | (negative_bits(end) & directed);
     if (unsure == 0) return;
     waiting_ |= unsure;
-    queue_->push(*this, unsure, s, half, start);
+    is_smooth_ ? queue_->push<kSmoothDegree>(*this, unsure, s, half, start)
+               : queue_->push<kDegree>(*this, unsure, s, half, start);
   }
 
   void drain() {
@@ -175,12 +193,12 @@ class ShapeMeter {
   Lanes rest_;   ///< x(inf)
   Lanes scale_;  ///< x/f
   // Of f:
-  Lanes passed_;               ///< value at the end of the last panel passed
-  Lanes mean_;                 ///< largest mean of a panel
-  Lanes tail_, smooth_tail_;   ///< largest last coefficients: of the degree in use, of the one before
-  unsigned falling_ = 0;       ///< direction since the last turning point, a bit a lane
-  unsigned known_ = 0;         ///< lanes that have a direction
-  unsigned waiting_ = 0;       ///< lanes with panels in the queue
+  Lanes passed_;              ///< value at the end of the last panel passed
+  Lanes mean_;                ///< largest mean of a panel
+  Lanes tail_, smooth_tail_;  ///< largest last coefficients: of the degree in use, of the one before
+  unsigned falling_ = 0;      ///< direction since the last turning point, a bit a lane
+  unsigned known_ = 0;        ///< lanes that have a direction
+  unsigned waiting_ = 0;      ///< lanes with panels in the queue
   // Of x:
   Lanes late_;                 ///< largest |x - x(inf)| over the last dead time
   Lanes last_;                 ///< value at the last turning point

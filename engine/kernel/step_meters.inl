@@ -27,8 +27,6 @@ struct Place {
   bool first_of_all, first_of_interval, last_of_interval, last_of_all, late;
   bool look;  ///< whether the signals are quiet is asked
   bool is_cut() const { return end < 1; }
-  /// Nothing is to be done but to watch a signal that does not jump.
-  bool is_plain() const { return !(first_of_all || last_of_all || late || look || is_cut()); }
 };
 
 /// Where the meters of both steps put what needs a closer look.
@@ -64,33 +62,27 @@ inline void watch_cut(ShapeMeter& meter, const Signal& s, const Place& at, Mask 
   Series f, slope;
   set_cut_off(f, s.f, at.end);
   set_cut_off(slope, s.slope, at.end);
-  if (at.first_of_interval) meter.enter(value_at_start(f), active);
-  meter.watch<kDegree>({f, slope, rest_bound(slope, 1)}, 0.5 * at.half * (at.end + 1), active);
-  meter.pass(value_at_end(f), active);
-}
-
-template <int degree>
-__attribute__((noinline)) void watch_with_edges(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump,
-                                                Mask active, Mask& quiet) {
-  if (at.late && !meter.is_late) meter.begin_late();
-  if (at.is_cut()) {
-    watch_cut(meter, s, at, active);
-  } else {
-    if (at.first_of_all || (at.first_of_interval && may_jump)) meter.enter(value_at_start(s.f), active);
-    if (at.first_of_interval && at.late) meter.pass(value_at_start(s.f), active);
-    meter.watch<degree>(s, at.half, active);
-    if (at.late || at.last_of_all || (at.last_of_interval && (may_jump || at.look)))
-      meter.pass(value_at_end(s.f), active);
-  }
-  if (at.last_of_all) meter.finish(active);
-  if (at.look) quiet = quiet & meter.is_quiet(s, kQuiet);
+  const Signal cut{f, slope, f[0] + (s.mean - s.f[0]), rest_bound(slope, 1)};
+  if (at.first_of_interval) meter.enter(cut.start(), active);
+  meter.watch<kDegree>(cut, 0.5 * at.half * (at.end + 1), active);
+  meter.pass(cut.end(), active);
 }
 
 /// One panel of a signal; lanes that are not at rest leave `quiet` when asked.
 template <int degree>
-inline void watch_signal(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump, Mask active, Mask& quiet) {
-  if (at.is_plain() && !may_jump) return meter.watch<degree>(s, at.half, active);
-  watch_with_edges<degree>(meter, s, at, may_jump, active, quiet);
+__attribute__((noinline)) void watch_signal(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump,
+                                            Mask active, Mask& quiet) {
+  if (at.late && !meter.is_late) meter.begin_late();
+  if (at.is_cut()) {
+    watch_cut(meter, s, at, active);
+  } else {
+    if (at.first_of_all || (at.first_of_interval && may_jump)) meter.enter(s.start(), active);
+    if (at.first_of_interval && at.late) meter.pass(s.start(), active);
+    meter.watch<degree>(s, at.half, active);
+    if (at.late || at.last_of_all || (at.last_of_interval && (may_jump || at.look))) meter.pass(s.end(), active);
+  }
+  if (at.last_of_all) meter.finish(active);
+  if (at.look) quiet = quiet & meter.is_quiet(s, kQuiet);
 }
 
 inline void watch_error(ErrorMeter& meter, const Error& e, const Place& at, Mask active) {

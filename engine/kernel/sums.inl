@@ -28,7 +28,7 @@ struct ErrorSums {
 /// at `degree` they are below rounding.
 template <int degree>
 struct ErrorSumsTo {
-  static constexpr int kSquared = degree == kDegree ? 8 : 6;
+  static constexpr int kSquared = degree == kDegree ? 8 : 5;
   ErrorSums sums;
 
   void add(int k, Lanes c) {

@@ -19,8 +19,10 @@ class WaitingRow {
 
 class WaitingSeries {
  public:
+  template <int degree>
   void push(const Series& f, unsigned lanes, int size) {
-    for (int k = 0; k < kTerms; ++k) rows_[k].push(f[k], lanes, size);
+    for (int k = 0; k <= degree; ++k) rows_[k].push(f[k], lanes, size);
+    for (int k = degree + 1; k < kTerms; ++k) rows_[k].push_all(0.0, size);
   }
   /// offset + scale f
   void push(const Series& f, Lanes scale, Lanes offset, unsigned lanes, int size) {

@@ -21,10 +21,11 @@ struct Part {
 
 inline constexpr int kHalvings = 8;
 
+template <int degree>
 inline Lanes value_in_middle(const Series& f) {
   constexpr double kAtZero[7] = {1, -1.0 / 2, 3.0 / 8, -5.0 / 16, 35.0 / 128, -63.0 / 256, 231.0 / 1024};
   Lanes sum = f[0];
-  for (int k = 2; k < kTerms; k += 2) sum = mul_add(Lanes(kAtZero[k / 2]), f[k], sum);
+  for (int k = 2; k <= degree; k += 2) sum = mul_add(Lanes(kAtZero[k / 2]), f[k], sum);
   return sum;
 }
 
@@ -53,33 +54,37 @@ constexpr PowerTable make_power_table() {
 
 inline constexpr PowerTable kPowers = make_power_table();
 
-/// f and f' by powers of x: less exact than the series by the size of P_k's coefficients, which the small last coefficients
-/// of f take back, and with four short chains of operations in place of one long recursion.
+/// f by powers of x: less exact than the series by the size of P_k's coefficients, which the small last coefficients of f
+/// take back, and with two short chains of operations in place of one long recursion.
+template <int degree>
 class Powers {
  public:
   explicit Powers(const Series& f) {
-    for (int j = 0; j < kTerms; ++j) {
+    for (int j = 0; j <= degree; ++j) {
       Lanes sum = 0.0;
-      for (int k = j; k < kTerms; k += 2) sum = mul_add(f[k], Lanes(kPowers.of[k][j]), sum);
+      for (int k = j; k <= degree; k += 2) sum = mul_add(f[k], Lanes(kPowers.of[k][j]), sum);
       a_[j] = sum;
     }
-    for (int j = 0; j < kDegree; ++j) slope_[j] = Lanes(j + 1.0) * a_[j + 1];
-    slope_[kDegree] = 0.0;
+  }
+  static Powers derivative(const Powers& f) {
+    Powers slope;
+    for (int j = 0; j < degree; ++j) slope.a_[j] = Lanes(j + 1.0) * f.a_[j + 1];
+    slope.a_[degree] = 0.0;
+    return slope;
   }
 
-  Lanes value(Lanes x) const { return by_halves(a_, x); }
-  Lanes slope(Lanes x) const { return by_halves(slope_, x); }
-
- private:
-  static Lanes by_halves(const Series& a, Lanes x) {
+  Lanes value(Lanes x) const {
+    static_assert(degree % 2 == 0);
     const Lanes z = x * x;
-    Lanes even = a[kDegree], odd = a[kDegree - 1];
-    for (int j = kDegree - 2; j >= 0; j -= 2) even = mul_add(even, z, a[j]);
-    for (int j = kDegree - 3; j >= 1; j -= 2) odd = mul_add(odd, z, a[j]);
+    Lanes even = a_[degree], odd = a_[degree - 1];
+    for (int j = degree - 2; j >= 0; j -= 2) even = mul_add(even, z, a_[j]);
+    for (int j = degree - 3; j >= 1; j -= 2) odd = mul_add(odd, z, a_[j]);
     return mul_add(odd, x, even);
   }
 
-  Series a_, slope_;
+ private:
+  Powers() = default;
+  Lanes a_[degree + 1];
 };
 
 /// A place close to a zero of f, Newton's step -f/f' from there that is left over, and f there.
@@ -89,15 +94,16 @@ struct Zero {
 
 /// The zero of a monotonic f that changes sign between its ends, to `kNear` of a half panel, in the lanes of `mask`. The
 /// bracket keeps Newton's method from running away. A lane that has arrived stays: its bits are its own.
+template <int degree>
 inline Zero zero_of(const Series& f, const Ends& ends, Mask mask) {
-  const Powers powers(f);
+  const Powers<degree> powers(f), slopes = Powers<degree>::derivative(powers);
   constexpr double kNear = 3e-5;
   Lanes left = -1.0, right = 1.0;
-  Zero zero{zero_of_parabola(ends, value_in_middle(f)), Lanes(0.0), Lanes(0.0)};
+  Zero zero{zero_of_parabola(ends, value_in_middle<degree>(f)), Lanes(0.0), Lanes(0.0)};
   Mask open = mask;
   for (int i = 0; i < 40; ++i) {
     const Lanes here = powers.value(zero.x);
-    zero.step = select(open, -here / powers.slope(zero.x), zero.step);
+    zero.step = select(open, -here / slopes.value(zero.x), zero.step);
     zero.here = select(open, here, zero.here);
     const Mask same_as_left = here * ends.left > Lanes(0.0);
     left = select(same_as_left, zero.x, left);
@@ -117,23 +123,23 @@ inline Zero zero_of(const Series& f, const Ends& ends, Mask mask) {
 ///
 ///     keeps_sign(f, part, lanes)       no zero
 ///     may_cross(f, part, ends, lanes)  monotonic: one zero where the ends differ in sign, else none
-template <typename Visitor>
+template <int degree, typename Visitor>
 void search_zeros(const Series& f, const Part& part, Mask mask, int halvings_left, Visitor& visitor) {
   Series slope;
-  set_derivative(slope, f);
-  const Mask monotonic = halvings_left == 0 ? mask : mask & has_no_zero(slope);
-  if (any(monotonic)) visitor.may_cross(f, part, ends_of(f), monotonic);
+  set_derivative<degree>(slope, f);
+  const Mask monotonic = halvings_left == 0 ? mask : mask & has_no_zero<degree>(slope);
+  if (any(monotonic)) visitor.may_cross(f, part, ends_of<degree>(f), monotonic);
   const Mask open = but_not(mask, monotonic);
   if (!any(open)) return;
-  const Mask sure = open & has_no_zero(f);
+  const Mask sure = open & has_no_zero<degree>(f);
   if (any(sure)) visitor.keeps_sign(f, part, sure);
   const Mask undecided = but_not(open, sure);
   if (!any(undecided)) return;
   Series& half = slope;
-  set_left_half(half, f);
-  search_zeros(half, part.left(), undecided, halvings_left - 1, visitor);
-  set_right_half(half, f);
-  search_zeros(half, part.right(), undecided, halvings_left - 1, visitor);
+  set_left_half<degree>(half, f);
+  search_zeros<degree>(half, part.left(), undecided, halvings_left - 1, visitor);
+  set_right_half<degree>(half, f);
+  search_zeros<degree>(half, part.right(), undecided, halvings_left - 1, visitor);
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -87,8 +87,10 @@ TEST_P(Responses, NeighboursDoNotMatter) {
       {Plant::dipdt, 1, Prefilter::full}, {Plant::fotd, 0, Prefilter::pi}, {Plant::ipdt, 2, Prefilter::pi}};
   for (const LoopFamily& family : families) {
     std::vector<Setting> settings;
-    for (int i = 0; i < implementation.lanes; ++i)
+    for (int i = 0; i < 3 * implementation.lanes; ++i) {
       settings.push_back(oracle::random_stable_loop(random, family.plant, family.n, family.prefilter).setting);
+      if (i < implementation.lanes) settings.back().b = settings.back().c = 0;
+    }
     std::vector<kernel::Measured> together(settings.size());
     kernel::measure_responses(implementation, family, settings, Horizon::fixed(25.5), together);
     for (std::size_t i = 0; i < settings.size(); ++i) {
