@@ -8,6 +8,7 @@
 #include "tools/exit_codes.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/run_state.h"
 #include "tools/verbs.h"
 
 namespace portrait::tools {
@@ -17,7 +18,8 @@ constexpr const char* kHelp =
     R"(Example:
   portrait info huba.h5
 
-Shows what a portrait holds: plant, controller, axes, measures, how it was made.)";
+Shows what a portrait holds: plant, controller, axes, measures, how it was made. Of a sweep that
+still runs or was stopped it shows state, progress and health of every shard.)";
 
 Json json_axes(const Grid& grid) {
   Json axes = Json::array();
@@ -102,6 +104,10 @@ void add_info(CLI::App& app, Invocation& invocation) {
   verb->add_option("file", *file, "portrait file")->required();
   verb->add_flag("--json", *json, "one JSON object instead of text");
   verb->callback([file, json, &invocation] {
+    if (const auto folder = run_folder_meant(*file)) {
+      invocation.exit_code = print_run_state(*folder, *json);
+      return;
+    }
     const PortraitReader portrait(*file);
     if (*json)
       print_as_json(portrait.grid(), portrait.facts());

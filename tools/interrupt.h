@@ -2,11 +2,10 @@
 #pragma once
 
 #include <atomic>
-#include <string>
 
 namespace portrait::tools {
 
-/// While one lives, SIGINT, SIGTERM and SIGHUP are caught. REQUIRES: at most one at a time.
+/// While one lives, SIGINT, SIGTERM, SIGHUP and SIGUSR1 are caught. REQUIRES: at most one at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -15,9 +14,6 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   const std::atomic<bool>& requested() const;
-
-  /// A file that the second signal removes before the program ends.
-  void remove_on_second(const std::string& path);
 };
 
 }  // namespace portrait::tools

@@ -103,6 +103,7 @@ int run(int argc, char** argv) {
   add_sweep(app, invocation);
   add_info(app, invocation);
   add_verify(app, invocation);
+  add_merge(app, invocation);
   add_query(app, invocation);
   add_simulate(app, invocation);
   add_plot(app, invocation);

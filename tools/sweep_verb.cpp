@@ -1,22 +1,20 @@
-/// portrait sweep: grid file -> grid -> tiles of measures -> portrait file. The whole flow in one page.
+/// portrait sweep: the arguments, and the dry run. The run itself: tools/sweep_to_file.cpp.
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
-#include "engine/base/status.h"
 #include "engine/sweep/sweep.h"
 #include "grids/grid_file.h"
-#include "grids/sweep_job.h"
-#include "portraits/writer.h"
+#include "grids/tiling.h"
 #include "tools/exit_codes.h"
-#include "tools/interrupt.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/shard_argument.h"
+#include "tools/sweep_to_file.h"
 #include "tools/verbs.h"
 
 namespace portrait::tools {
@@ -27,24 +25,10 @@ constexpr const char* kHelp =
   portrait sweep grids/catalog/huba2022-43.toml -o huba.h5
 
 Simulates every setting of a grid file (its format: grids/README.md) and stores the measures
-in a portrait. The file appears under its name only when it is complete and checked; Ctrl-C
-ends cleanly and leaves nothing behind.)";
-
-struct SweepArguments {
-  std::string grid, output;
-  int threads = 0;
-  bool dry_run = false, force = false, quiet = false, json = false;
-};
-
-/// How many settings came out how.
-struct Tally {
-  std::array<std::uint64_t, kStatusNames.size()> count{};
-
-  void add(const MeasureColumns& columns) {
-    for (const Status status : columns.status) ++count[static_cast<std::size_t>(status)];
-  }
-  std::uint64_t operator[](Status status) const { return count[static_cast<std::size_t>(status)]; }
-};
+in a portrait. The file appears under its name only when it is complete and checked. Until then
+the sweep works in FILE.h5.run: stopped by Ctrl-C, by a signal of a cluster or by anything worse,
+it goes on with --resume. A grid for many machines is cut with --shard I/N; in an array of Slurm,
+under srun and under mpirun each process takes its own shard by itself. docs/cluster.md says more.)";
 
 // ---------------------------------------------------------------- dry run
 
@@ -98,87 +82,14 @@ int dry_run(const SweepArguments& a, const Grid& grid, const Tiling& tiling, int
   return kDone;
 }
 
-// ---------------------------------------------------------------- the run itself
-
-/// What a run killed earlier has left beside the target: nobody but the user may know that it is not in use.
-void mention_leftovers(const std::filesystem::path& target) {
-  const std::string prefix = target.filename().string() + ".tmp-";
-  const auto directory = target.parent_path().empty() ? std::filesystem::path(".") : target.parent_path();
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
-    if (entry.path().filename().string().starts_with(prefix))
-      print_message(
-          fmt::format("note: {} is of a run that was killed, or of one that still runs", entry.path().string()));
-}
-
-int report(const SweepArguments& a, const SweepOutcome& outcome, const Tally& tally) {
-  const double rate = static_cast<double>(outcome.settings_measured) / outcome.seconds;
-  if (a.json) {
-    print_json({{"settings", outcome.settings_measured},
-                {"settled", tally[Status::settled]},
-                {"not_settled", tally[Status::not_settled]},
-                {"unstable", tally[Status::unstable]},
-                {"seconds", outcome.seconds},
-                {"settings_per_second", rate},
-                {"threads", outcome.threads},
-                {"settings_by_reference", outcome.settings_by_reference},
-                {"method", method_text(Method::kernel)},
-                {"file", a.output}});
-    return kDone;
-  }
-  if (a.quiet) return kDone;
-  print_message(fmt::format("{} settings in {} on {} threads, {} settings/s", grouped(outcome.settings_measured),
-                            duration_text(outcome.seconds), outcome.threads,
-                            grouped(static_cast<std::uint64_t>(rate))));
-  print_message(fmt::format("{} settled, {} not settled at the horizon, {} unstable",
-                            grouped(tally[Status::settled]), grouped(tally[Status::not_settled]),
-                            grouped(tally[Status::unstable])));
-  if (outcome.settings_by_reference > 0)
-    print_message(
-        fmt::format("{} settings, too stiff for the kernel's panels, were measured by the reference method",
-                    grouped(outcome.settings_by_reference)));
-  print_message(fmt::format("portrait written to {}", a.output));
-  return kDone;
-}
-
-int stopped(const SweepOutcome& outcome, std::uint64_t settings) {
-  print_message(fmt::format("stopped after {} of {} settings; no file was written",
-                            grouped(outcome.settings_measured), grouped(settings)));
-  return kStopped;
-}
-
-int sweep_to_file(const SweepArguments& a, const Invocation& invocation, const Grid& grid, SweepJob job) {
-  const std::filesystem::path output(a.output);
-  mention_leftovers(output);
-  InterruptGuard interrupt;
-  PortraitWriter writer(output, grid, {invocation.command_line, method_text(Method::kernel)},
-                        a.force ? Existing::replace : Existing::refuse);
-  interrupt.remove_on_second(writer.temporary_path().string());
-  Tally tally;
-  Progress progress(setting_count(grid), Progress::usual_style(a.quiet));
-  job.prepare = [&](std::uint64_t tile, const MeasureColumns& columns) -> StoreStep {
-    return [&, encoded = std::make_shared<EncodedTile>(writer.encode(tile, columns))] {
-      writer.write(*encoded);
-      tally.add(columns);
-    };
-  };
-  job.progress = [&](std::uint64_t done) { progress.update(done); };
-  job.stop = &interrupt.requested();
-
-  const SweepOutcome outcome = sweep(job);
-  progress.finish();
-  if (!outcome.complete) return stopped(outcome, setting_count(grid));
-  writer.publish({.wall_seconds = outcome.seconds, .threads = outcome.threads});
-  return report(a, outcome, tally);
-}
-
 int run(const SweepArguments& a, const Invocation& invocation) {
   const Grid grid = read_grid(a.grid);
   const Tiling tiling(grid);
   const int threads = a.threads > 0 ? a.threads : usual_threads();
   if (a.dry_run) return dry_run(a, grid, tiling, threads);
   if (a.output.empty()) throw InputError("-o FILE.h5 is missing: where shall the portrait go?");
-  return sweep_to_file(a, invocation, grid, sweep_job(grid, tiling, threads));
+  const Shard shard = a.shard.empty() ? shard_from(this_environment()) : shard_argument(a.shard);
+  return sweep_to_file(a, invocation.command_line, grid, shard, threads);
 }
 
 }  // namespace
@@ -190,7 +101,9 @@ void add_sweep(CLI::App& app, Invocation& invocation) {
   verb->add_option("-o,--output", a->output, "portrait file to write");
   verb->add_option("--threads", a->threads, "threads (default: all)")->check(CLI::Range(1, 4096));
   verb->add_flag("--dry-run", a->dry_run, "only say how many settings, how long and how large");
-  verb->add_flag("--force", a->force, "replace an existing portrait");
+  verb->add_flag("--force", a->force, "replace an existing portrait, throw a stopped sweep away");
+  verb->add_flag("--resume", a->resume, "go on with a sweep that was stopped, or begin it");
+  verb->add_option("--shard", a->shard, "I/N: compute part I of N alone (default: from Slurm or MPI, else 1/1)");
   verb->add_flag("--quiet", a->quiet, "no progress, no summary");
   verb->add_flag("--json", a->json, "the summary as one JSON object");
   verb->callback([a, &invocation] { invocation.exit_code = run(*a, invocation); });

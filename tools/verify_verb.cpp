@@ -5,6 +5,7 @@
 #include "portraits/verify.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
+#include "tools/run_state.h"
 #include "tools/verbs.h"
 
 namespace portrait::tools {
@@ -18,6 +19,7 @@ Reads every value of a portrait and holds it against the digests that were store
 Exit code 4 when anything differs; the damaged datasets are named.)";
 
 int run(const std::string& file) {
+  if (const auto folder = run_folder_meant(file)) return verify_run(*folder);
   const VerifyReport report = inspect(file);
   std::string text;
   bool whole = true;

@@ -45,7 +45,8 @@ class Worker {
   /// An exception must not leave a parallel region.
   void run() {
     try {
-      while (!is_stopped()) {
+      while (!failure_.happened()) {
+        if (job_.stop && job_.stop->load()) queue_.begin_no_more();
         const auto slice = queue_.next();
         if (!slice) return;
         measure(*slice);
@@ -59,8 +60,6 @@ class Worker {
   }
 
  private:
-  bool is_stopped() const { return failure_.happened() || (job_.stop && job_.stop->load()); }
-
   void measure(const Slice& slice) {
     const auto settings = std::span(slice.tile->settings).subspan(slice.first, slice.count);
     measured_.resize(slice.count);

@@ -38,7 +38,7 @@ struct SweepJob {
   std::function<StoreStep(std::uint64_t tile, const MeasureColumns& columns)> prepare;
   /// Called often, by one thread at a time; may be empty.
   std::function<void(std::uint64_t settings_measured)> progress;
-  const std::atomic<bool>* stop = nullptr;  ///< when it becomes true, workers end after the slice in hand
+  const std::atomic<bool>* stop = nullptr;  ///< when it becomes true, no tile is begun any more
   int threads = 0;                          ///< 0: usual_threads()
 };
 

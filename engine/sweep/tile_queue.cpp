@@ -16,9 +16,10 @@ std::optional<Slice> TileQueue::next() {
   std::unique_lock lock(mutex_);
   // Others may begin the tile this one waits for, and cut it up: then the question is the same again.
   const auto is_cut_up = [&] { return !current_ || cut_ == current_->settings.size(); };
-  stored_one_.wait(
-      lock, [&] { return closed_ || !is_cut_up() || begun_ == tile_count_ || begun_ - stored_ < kTilesInMemory; });
-  if (closed_ || (is_cut_up() && begun_ == tile_count_)) return std::nullopt;
+  const auto is_last = [&] { return ending_ || begun_ == tile_count_; };
+  stored_one_.wait(lock,
+                   [&] { return closed_ || !is_cut_up() || is_last() || begun_ - stored_ < kTilesInMemory; });
+  if (closed_ || (is_cut_up() && is_last())) return std::nullopt;
   if (is_cut_up()) begin_tile();
   const std::size_t count = std::min(kSliceSettings, current_->settings.size() - cut_);
   const Slice slice{current_, cut_, count};
@@ -51,6 +52,12 @@ void TileQueue::store_in_order(std::unique_lock<std::mutex>& lock) {
     stored_one_.notify_all();
   }
   storing_ = false;
+}
+
+void TileQueue::begin_no_more() {
+  const std::scoped_lock lock(mutex_);
+  ending_ = true;
+  stored_one_.notify_all();
 }
 
 void TileQueue::close() {

@@ -61,6 +61,9 @@ class TileQueue {
   /// turn has come is stored, by one thread at a time.
   void finish(const Slice& slice);
 
+  /// Begins no more tiles: those begun are given out to their ends, and stored.
+  void begin_no_more();
+
   /// Gives out no more slices: a worker failed, and its slice will not come back.
   void close();
 
@@ -85,6 +88,7 @@ class TileQueue {
   std::uint64_t measured_ = 0;          ///< settings
   bool storing_ = false;                ///< one thread is in a store step
   bool closed_ = false;
+  bool ending_ = false;                 ///< no tile is begun any more
   std::map<std::uint64_t, std::shared_ptr<Tile>> waiting_;  ///< prepared, but an earlier tile is not stored
 };
 

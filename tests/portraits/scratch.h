@@ -14,10 +14,11 @@ namespace portrait {
 class ScratchTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "portrait-test-XXXXXX").string();
+    std::string name = (parent() / "portrait-test-XXXXXX").string();
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder_ = name;
   }
+  virtual std::filesystem::path parent() const { return std::filesystem::temp_directory_path(); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path in(const std::string& name) const { return folder_ / name; }

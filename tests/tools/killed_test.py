@@ -1,4 +1,4 @@
-"""A sweep killed at any moment leaves either no output file or a whole one."""
+"""A sweep killed at any moment leaves either no output file or a whole one, and goes on when resumed."""
 
 import random
 import subprocess
@@ -14,6 +14,7 @@ class Killed(ProgramTest):
         begin = time.monotonic()
         self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet")
         whole_run = time.monotonic() - begin
+        whole = self.run_program("verify", "g.h5").out
         (self.folder / "g.h5").unlink()
         chance = random.Random(1)
         left = 0
@@ -24,9 +25,11 @@ class Killed(ProgramTest):
             sweep.kill()
             sweep.wait()
             if (self.folder / "g.h5").exists():
-                self.assertEqual(self.run_program("verify", "g.h5").code, 0)
-                (self.folder / "g.h5").unlink()
                 left += 1
+            self.assertEqual(self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet", "--resume").code, 0)
+            self.assertEqual(self.run_program("verify", "g.h5").out, whole)
+            self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["g.h5", "g.toml"])
+            (self.folder / "g.h5").unlink()
         self.assertLess(left, 30, "no run was killed before its end")
 
 

@@ -1,6 +1,8 @@
 """portrait sweep: the summary, the dry run, wrong grids, interruption, the same bits for any number of threads."""
 
+import os
 import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -77,22 +79,29 @@ class Sweep(ProgramTest):
         self.write("g.toml", LONG_GRID)
         sweep = subprocess.Popen([program.PROGRAM, "sweep", "g.toml", "-o", "g.h5"], cwd=self.folder, text=True,
                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        while not any(".tmp-" in path.name for path in self.folder.iterdir()):
+        while not (self.folder / "g.h5.run" / "1-of-1.data").exists():
             self.assertIsNone(sweep.poll(), "the sweep is too short for this test")
             time.sleep(0.01)
         time.sleep(0.2)
         return sweep
 
     def test_ctrl_c_ends_cleanly(self):
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1):
             sweep = self.start_long_sweep()
             sweep.send_signal(number)
             out, err = sweep.communicate(timeout=60)
             self.assertEqual(sweep.returncode, 5)
-            self.assertRegex(err, r"portrait: stopped after [\d,]+ of 4,812,000 settings; no file was written\n$")
-            self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
+            self.assertRegex(err, r"portrait: stopped with [\d,]+ of [\d,]+ tiles stored in g.h5.run; go on with:\n"
+                                  r"  portrait sweep g.toml -o g.h5 --resume\n$")
+            self.assertFalse((self.folder / "g.h5").exists())
+            state = self.run_program("info", "g.h5", "--json").json
+            self.assertEqual(state["state"], "stopped")
+            self.assertGreater(state["tiles_stored"], 0)
+            self.assertEqual(self.run_program("verify", "g.h5").code, 0)
+            self.assertEqual(self.run_program("sweep", "g.toml", "-o", "g.h5").code, 2)
+            shutil.rmtree(self.folder / "g.h5.run")
 
-    def test_second_ctrl_c_leaves_at_once_and_leaves_nothing(self):
+    def test_second_ctrl_c_leaves_at_once_and_is_in_nobodys_way(self):
         sweep = self.start_long_sweep()
         sweep.send_signal(signal.SIGSTOP)
         sweep.send_signal(signal.SIGINT)
@@ -100,13 +109,15 @@ class Sweep(ProgramTest):
         sweep.send_signal(signal.SIGCONT)
         sweep.communicate(timeout=60)
         self.assertEqual(sweep.returncode, 130)
-        self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
+        self.assertFalse((self.folder / "g.h5").exists())
+        self.write("g.toml", SMALL_GRID)  # another grid: the first left no batch
+        self.assertEqual(self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet").code, 0)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["g.h5", "g.toml"])
 
     def test_a_file_that_may_not_grow_is_reported_and_leaves_nothing(self):
         self.write("g.toml", LONG_GRID.replace("count = 4000", "count = 20").replace("count = 401 ", "count = 40 "))
 
         def limit_file_size():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (65536, 65536))
 
         result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet", preexec_fn=limit_file_size)
@@ -114,11 +125,38 @@ class Sweep(ProgramTest):
         self.assertRegex(result.err, r"^portrait: g\.h5.*File too large\n$")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["g.toml"])
 
-    def test_what_a_killed_run_left_is_mentioned(self):
+    def test_shards_merge_into_the_portrait_of_the_whole(self):
+        self.write("g.toml", SMALL_GRID.replace("step = 0.08", "count = 3000"))
+        self.assertEqual(self.run_program("sweep", "g.toml", "-o", "whole.h5", "--quiet").code, 0)
+        environments = [{"OMPI_COMM_WORLD_RANK": "0", "OMPI_COMM_WORLD_SIZE": "3"},
+                        {"SLURM_ARRAY_TASK_ID": "7", "SLURM_ARRAY_TASK_MIN": "3", "SLURM_ARRAY_TASK_STEP": "2",
+                         "SLURM_ARRAY_TASK_COUNT": "3"}]
+        for environment in environments:
+            self.assertEqual(self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet",
+                                              env={**os.environ, **environment}).code, 0)
+        self.assert_fails(self.run_program("merge", "g.h5.run", "-o", "g.h5"), 2,
+                          "2 of 7 tiles are missing: run shard 2/3 again with --resume")
+        answer = self.run_program("sweep", "g.toml", "-o", "g.h5", "--json", "--shard", "2/3").json
+        self.assertEqual((answer["shard"], answer["file"]), ("2/3", "g.h5.run"))
+        merged = self.run_program("merge", "g.h5.run", "-o", "g.h5", "--json").json
+        self.assertEqual((merged["settings"], merged["shards"], merged["tiles"]), (27000, 3, 7))
+        whole = self.run_program("verify", "whole.h5").out.replace("whole.h5", "g.h5")
+        self.assertEqual(self.run_program("verify", "g.h5").out, whole)
+
+    def test_wrong_shards(self):
         self.write("g.toml", SMALL_GRID)
-        self.write("g.h5.tmp-1-0", "")
-        result = self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet")
-        self.assertEqual(result.err, "portrait: note: ./g.h5.tmp-1-0 is of a run that was killed, or of one that still runs\n")
+        for text in ("0/3", "4/3", "1", "a/b", "1/0"):
+            self.assert_fails(self.run_program("sweep", "g.toml", "-o", "g.h5", "--shard", text), 2,
+                              f"--shard {text} must be I/N with 1 <= I <= N <= 1000000")
+
+    def test_resume_of_what_is_complete(self):
+        self.small_portrait()
+        result = self.run_program("sweep", "small.toml", "-o", "small.h5", "--resume")
+        self.assertEqual((result.code, result.err), (0, "portrait: small.h5 is complete already\n"))
+        self.write("small.toml", SMALL_GRID.replace("0.55", "0.56"))
+        result = self.run_program("sweep", "small.toml", "-o", "small.h5", "--resume")
+        self.assertEqual(result.code, 2)
+        self.assertIn("small.h5 is there, of another run (--force replaces it):\n  the grid: line 8", result.err)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,170 @@
+#include "tools/sweep_to_file.h"
+
+#include <array>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.h"
+#include "engine/base/status.h"
+#include "grids/sweep_job.h"
+#include "portraits/reader.h"
+#include "portraits/run_writer.h"
+#include "tools/exit_codes.h"
+#include "tools/interrupt.h"
+#include "tools/output.h"
+#include "tools/progress.h"
+
+namespace portrait::tools {
+namespace {
+
+/// How many settings came out how.
+struct Tally {
+  std::array<std::uint64_t, kStatusNames.size()> count{};
+
+  void add(const MeasureColumns& columns) {
+    for (const Status status : columns.status) ++count[static_cast<std::size_t>(status)];
+  }
+  std::uint64_t operator[](Status status) const { return count[static_cast<std::size_t>(status)]; }
+};
+
+std::uint64_t settings_in_tiles(const Grid& grid, const std::vector<std::uint64_t>& tiles) {
+  const Tiling tiling(grid);
+  std::uint64_t count = 0;
+  for (const std::uint64_t tile : tiles) count += tiling.box(tile).size();
+  return count;
+}
+
+std::string resume_command(const std::string& command_line) {
+  const bool has = command_line.find(" --resume") != std::string::npos;
+  return command_line + (has ? "" : " --resume");
+}
+
+// ---------------------------------------------------------------- what is said in the end
+
+int report(const SweepArguments& a, const Grid& grid, const Shard& shard, const SweepOutcome& outcome,
+           const Tally& tally) {
+  const double rate = outcome.seconds > 0 ? static_cast<double>(outcome.settings_measured) / outcome.seconds : 0;
+  const bool whole = shard.count == 1;
+  if (a.json) {
+    Json json = {{"settings", setting_count(grid)},
+                 {"settings_measured", outcome.settings_measured},
+                 {"settled", tally[Status::settled]},
+                 {"not_settled", tally[Status::not_settled]},
+                 {"unstable", tally[Status::unstable]},
+                 {"seconds", outcome.seconds},
+                 {"settings_per_second", rate},
+                 {"threads", outcome.threads},
+                 {"settings_by_reference", outcome.settings_by_reference},
+                 {"method", method_text(Method::kernel)},
+                 {"file", whole ? a.output : RunFolder::of_target(a.output).path().string()}};
+    if (!whole) json["shard"] = shard_text(shard);
+    print_json(json);
+    return kDone;
+  }
+  if (a.quiet) return kDone;
+  print_message(fmt::format("{} settings in {} on {} threads, {} settings/s", grouped(outcome.settings_measured),
+                            duration_text(outcome.seconds), outcome.threads,
+                            grouped(static_cast<std::uint64_t>(rate))));
+  print_message(fmt::format("{} settled, {} not settled at the horizon, {} unstable",
+                            grouped(tally[Status::settled]), grouped(tally[Status::not_settled]),
+                            grouped(tally[Status::unstable])));
+  if (outcome.settings_by_reference > 0)
+    print_message(
+        fmt::format("{} settings, too stiff for the kernel's panels, were measured by the reference method",
+                    grouped(outcome.settings_by_reference)));
+  if (whole) {
+    print_message(fmt::format("portrait written to {}", a.output));
+  } else {
+    const std::string folder = RunFolder::of_target(a.output).path().string();
+    print_message(fmt::format("shard {} is complete in {}; when all are: portrait merge {} -o {}", shard_text(shard),
+                              folder, folder, a.output));
+  }
+  return kDone;
+}
+
+int stopped(const RunWriter& run, const std::string& command_line, const Grid& grid) {
+  print_message(fmt::format("stopped with {} of {} tiles stored in {}; go on with:\n  {}", grouped(run.tiles_done()),
+                            grouped(Tiling(grid).tile_count()), run.folder().path().string(),
+                            resume_command(command_line)));
+  return kStopped;
+}
+
+/// The portrait is there already, of this very run: it was killed after its last step but one, or asked for twice.
+bool is_done(const std::filesystem::path& output, const Grid& grid) {
+  if (!std::filesystem::exists(output)) return false;
+  const PortraitReader portrait(output);
+  const RunManifest now = manifest_of(grid, {"", method_text(Method::kernel)});
+  RunManifest kept = now;
+  kept.grid_text = portrait.grid().text;
+  kept.schema_version = portrait.facts().schema_version;
+  kept.program = portrait.facts().program;
+  kept.method = portrait.facts().method;
+  const std::string differs = difference(kept, now);
+  if (!differs.empty())
+    throw InputError(fmt::format("{} is there, of another run (--force replaces it):{}", output.string(), differs));
+  const RunFolder folder = RunFolder::of_target(output);
+  if (!folder.exists()) return true;
+  for (const ShardState& shard : folder.shards(fingerprint(now))) {
+    const RunLock lock(folder.file_of(shard.shard, "lock"));
+    folder.remove(shard.shard);
+  }
+  folder.remove_if_empty();
+  return true;
+}
+
+// ---------------------------------------------------------------- the run
+
+/// Stored before it goes on, whatever stops it.
+SweepOutcome swept(const SweepJob& job, RunWriter& run) try {
+  const SweepOutcome outcome = sweep(job);
+  if (!outcome.complete || !run.grid_is_complete()) run.commit();
+  return outcome;
+} catch (const StoreError&) {
+  throw;  // no use in storing more
+} catch (...) {
+  run.commit();
+  throw;
+}
+
+}  // namespace
+
+int sweep_to_file(const SweepArguments& a, const std::string& command_line, const Grid& grid, const Shard& shard,
+                  int threads) {
+  const std::filesystem::path output(a.output);
+  const Existing existing = a.force ? Existing::replace : Existing::refuse;
+  if (a.resume && !a.force && is_done(output, grid)) {
+    if (!a.quiet) print_message(fmt::format("{} is complete already", a.output));
+    return kDone;
+  }
+  check_target(output, existing);
+  InterruptGuard interrupt;
+  const RunStart start = a.force ? RunStart::replace : a.resume || shard.count > 1 ? RunStart::resume : RunStart::fresh;
+  RunWriter run(output, grid, {command_line, method_text(Method::kernel)}, shard, start);
+  for (const std::string& damage : run.set_aside())
+    print_message(fmt::format("damaged, set aside and computed again: {}", damage));
+
+  Tally tally;
+  const Tiling tiling(grid);
+  SweepJob job = sweep_job(grid, tiling, threads);
+  job.tile_count = run.tiles_to_do().size();
+  job.settings_of = [&](std::uint64_t i) { return settings_in(grid, tiling.box(run.tiles_to_do()[i])); };
+  Progress progress(settings_in_tiles(grid, run.tiles_to_do()), Progress::usual_style(a.quiet));
+  job.prepare = [&](std::uint64_t i, const MeasureColumns& columns) -> StoreStep {
+    return [&, encoded = std::make_shared<EncodedTile>(run.encode(run.tiles_to_do()[i], columns))] {
+      run.write(*encoded);
+      tally.add(columns);
+    };
+  };
+  job.progress = [&](std::uint64_t done) { progress.update(done); };
+  job.stop = &interrupt.requested();
+
+  const SweepOutcome outcome = swept(job, run);
+  progress.finish();
+  if (!outcome.complete) return stopped(run, command_line, grid);
+  if (shard.count == 1) run.finish({.wall_seconds = outcome.seconds, .threads = outcome.threads}, existing);
+  return report(a, grid, shard, outcome, tally);
+}
+
+}  // namespace portrait::tools
