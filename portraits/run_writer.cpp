@@ -67,7 +67,9 @@ void RunWriter::begin_folder(const RunManifest& manifest, RunStart start) {
     folder_.remove_if_empty();
     throw;
   }
-  if (start == RunStart::replace) folder_.remove(shard_);
+  if (start == RunStart::replace)
+    for (const ShardState& shard : folder_.shards(fingerprint_))
+      if (shard.shard == shard_ || (shard_.count == 1 && !shard.writer)) folder_.remove(shard.shard);
   keep_manifest(manifest);
 }
 
