@@ -46,7 +46,7 @@ Polynomial coefficients(std::string_view option, std::string_view text) {
 
 bool is_transfer_function(std::string_view text) { return text.starts_with(kTransferFunction); }
 
-TransferFunction transfer_function_argument(std::string_view option, std::string_view text) {
+TransferFunction rational_argument(std::string_view option, std::string_view text) {
   const std::string_view fraction = text.substr(std::min(kTransferFunction.size(), text.size()));
   const auto slash = fraction.find('/');
   if (!is_transfer_function(text) || slash == std::string_view::npos)

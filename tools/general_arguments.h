@@ -20,7 +20,7 @@ namespace portrait::tools {
 
 /// Whether the text is a transfer function.
 bool is_transfer_function(std::string_view text);
-TransferFunction transfer_function_argument(std::string_view option, std::string_view text);
+TransferFunction rational_argument(std::string_view option, std::string_view text);
 
 std::vector<double> numbers_argument(std::string_view option, std::string_view text);
 

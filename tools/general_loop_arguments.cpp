@@ -38,7 +38,7 @@ TransferFunction rational_plant(const SimulateArguments& a) {
   refuse("--tau-1", !a.tau_1.empty() && a.plant != "fotd", "fotd has one");
   refuse("--tau-j", !a.tau_j.empty() && a.plant != "jotd", "jotd has one");
   refuse("--j", a.j != 0 && a.plant != "jotd", "jotd has it");
-  if (is_transfer_function(a.plant)) return transfer_function_argument("--plant", a.plant);
+  if (is_transfer_function(a.plant)) return rational_argument("--plant", a.plant);
   if (a.plant == "dipdt") return {{1}, {{0, 1}, {0, 1}}};
   if (a.plant == "ipdt") return {{1}, {{0, 1}}};
   if (a.plant == "fotd") return multiple_lag(1, time_constant("--tau-1", a.tau_1, "fotd"), 1);
@@ -84,7 +84,7 @@ GeneralController by_gains(const SimulateArguments& a) {
 
 GeneralController by_transfer_function(const SimulateArguments& a) {
   refuse("--tau-f", !a.tau_f.empty() || a.n >= 0, "--controller has its filter in its denominator");
-  const TransferFunction C = transfer_function_argument("--controller", a.controller);
+  const TransferFunction C = rational_argument("--controller", a.controller);
   if (relative_degree(C) < 0)
     throw InputError(
         fmt::format("--controller: improper, degree {} over {}", degree(C.numerator), degree(C.denominator)));
@@ -103,7 +103,7 @@ GeneralController controller_of(const SimulateArguments& a) {
 
 /// full and pi are made of the times of a PID controller.
 TransferFunction prefilter_of(const SimulateArguments& a) {
-  if (is_transfer_function(a.prefilter)) return transfer_function_argument("--prefilter", a.prefilter);
+  if (is_transfer_function(a.prefilter)) return rational_argument("--prefilter", a.prefilter);
   const double b = number_argument("--b", a.b), c = number_argument("--c", a.c);
   const Prefilter usual =
       a.kappa.empty() || !a.weights.empty() ? Prefilter::none : usual_prefilter(filter_order(a));
