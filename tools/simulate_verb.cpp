@@ -54,7 +54,7 @@ Loop loop_from(const SimulateArguments& a) {
   loop.family.prefilter =
       a.prefilter.empty() ? usual_prefilter(loop.family.n) : prefilter_argument("--prefilter", a.prefilter);
   Setting& s = loop.setting;
-  if (a.kappa.empty()) throw InputError("--kappa is missing: the controller's gain");
+  if (a.kappa.empty()) throw InputError("--kappa is required");
   s.kappa = number_argument("--kappa", a.kappa);
   s.tau_i = a.tau_i.empty() ? kInf : number_argument("--tau-i", a.tau_i);
   set_derivative(a, s);
