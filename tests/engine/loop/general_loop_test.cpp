@@ -78,6 +78,16 @@ TEST(GeneralMargins, AreWhereStabilityIsLost) {
   EXPECT_GT(checked, 60);
 }
 
+/// The phase of k/(s (s + 1)) tends to -180 degrees and never comes there.
+TEST(GeneralMargins, OfAPhaseThatOnlyTendsToTheCriticalOne) {
+  const GeneralLoop loop{{{{1}, {{0, 1}, {1, 1}}}, 0}, pid_controller({.Kp = 5, .Ki = 0, .Kd = 0})};
+  const Margins m = margins(open_loop(loop));
+  EXPECT_EQ(m.gain, kInf);
+  EXPECT_EQ(m.gain_low, 0);
+  EXPECT_GT(m.phase_deg, 20);
+  EXPECT_TRUE(std::isfinite(m.delay));
+}
+
 /// A scan can only find less.
 TEST(GeneralSensitivity, IsThePeakOfAScan) {
   Random random(412);

@@ -126,6 +126,29 @@ TEST(GeneralLoop, WithoutDeadTimeRespondsAsTheLaplaceTransformSays) {
   EXPECT_GT(compared, 70 * stable);
 }
 
+/// A loop with less and less dead time tends to the one without, in proportion.
+TEST(GeneralLoop, TendsToTheLoopWithoutDeadTime) {
+  Random random(403);
+  for (int i = 0; i < 5; ++i) {
+    GeneralLoop loop = oracle::random_general_loop(random, 0);
+    if (!is_stable(open_loop(loop))) continue;
+    SCOPED_TRACE(i);
+    const double horizon = 4;
+    const MeasureRow limit = measure_in_units(loop, Horizon::fixed(horizon)).measured.measures;
+    double before = 0;
+    for (const double dead_time : {0.02, 0.01, 0.005}) {
+      loop.plant.dead_time = dead_time;
+      const double off =
+          measure_in_units(loop, Horizon::fixed(horizon)).measured.measures[Measure::ISE_w] - limit[Measure::ISE_w];
+      if (before != 0) {
+        EXPECT_NEAR(before / off, 2, 0.2) << dead_time;
+      }
+      before = off;
+    }
+    loop.plant.dead_time = 0;
+  }
+}
+
 /// Lifted into the general form, the loops of the normalised families are the same loops.
 TEST(GeneralLoop, OfTheNormalisedFamiliesHasTheirMeasures) {
   Random random(402);

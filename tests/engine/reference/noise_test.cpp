@@ -19,16 +19,17 @@ namespace {
 using enum Noise::Kind;
 
 /// PI control of 1/(s + 1), without dead time, in the plainest way: Runge and Kutta's steps, noise held.
-std::vector<double> stepped(double Kp, double Ki, const Noise& noise, std::size_t samples) {
+Sampled stepped(double Kp, double Ki, const Noise& noise, std::size_t samples) {
   constexpr int kSteps4 = 200;
   double y = 0, integral = 0;
-  std::vector<double> u;
+  Sampled found;
   for (std::size_t k = 0; k < samples; ++k) {
     const double n = noise_value(noise, k), h = noise.sampling / kSteps4;
     const auto slope = [&](double of_y, double of_integral) {
       return std::pair(Kp * -(of_y + n) + Ki * of_integral - of_y, -(of_y + n));
     };
-    u.push_back(Kp * -(y + n) + Ki * integral);
+    found.u.push_back(Kp * -(y + n) + Ki * integral);
+    found.y.push_back(y);
     for (int i = 0; i < kSteps4; ++i) {
       const auto [a1, b1] = slope(y, integral);
       const auto [a2, b2] = slope(y + h / 2 * a1, integral + h / 2 * b1);
@@ -38,7 +39,7 @@ std::vector<double> stepped(double Kp, double Ki, const Noise& noise, std::size_
       integral += h / 6 * (b1 + 2 * b2 + 2 * b3 + b4);
     }
   }
-  return u;
+  return found;
 }
 
 TEST(NoiseAnswer, IsThatOfALoopThatIsStepped) {
@@ -48,8 +49,12 @@ TEST(NoiseAnswer, IsThatOfALoopThatIsStepped) {
     const Noise noise{.kind = kind, .amplitude = 0.1, .sampling = 0.05, .seed = 7};
     const NoiseAnswer answer(r, noise.sampling, 10);
     ASSERT_EQ(answer.samples(), 201u);
-    const std::vector<double> found = answer.u(noise), expected = stepped(2, 3, noise, answer.samples());
-    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-10) << k;
+    const std::vector<double> u = answer.u(noise), y = answer.y(noise);
+    const Sampled expected = stepped(2, 3, noise, answer.samples());
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      EXPECT_NEAR(u[k], expected.u[k], 1e-10) << k;
+      EXPECT_NEAR(y[k], expected.y[k], 1e-10) << k;
+    }
   }
 }
 
