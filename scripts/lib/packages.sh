@@ -15,6 +15,7 @@ test_packages=(
   libgtest-dev librapidcheck-dev           # unit and property tests
   libbenchmark-dev                         # benchmarks, each of which a test runs once
   python3 python3-xarray python3-netcdf4 python3-h5netcdf python3-h5py netcdf-bin  # portraits read by others
+  zsh                                      # its completion
   strace                                   # killing a sweep at a chosen system call
 )
 
