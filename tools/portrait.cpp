@@ -72,7 +72,8 @@ std::optional<std::string> unknown_word(const CLI::App& app, std::vector<std::st
   if (!verb_names(*verb).empty()) {  // portrait plot KIND: one level down
     line.erase(line.begin());
     if (line.empty() || line[0].starts_with("-"))
-      return fmt::format("portrait {} needs to know what: {}", verb->get_name(), fmt::join(verb_names(*verb), ", "));
+      return fmt::format("portrait {} needs to know what: {}", verb->get_name(),
+                         fmt::join(verb_names(*verb), ", "));
     if (const auto message = unknown("kind of " + verb->get_name(), line[0], verb_names(*verb))) return message;
     verb = verb->get_subcommand(line[0]);
   }
@@ -105,6 +106,7 @@ int run(int argc, char** argv) {
   add_verify(app, invocation);
   add_query(app, invocation);
   add_simulate(app, invocation);
+  add_characteristic(app, invocation);
   add_plot(app, invocation);
   add_tune(app, invocation);
   try {

@@ -11,6 +11,8 @@
 #include "tools/arguments.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
+#include "tools/simulate_arguments.h"
+#include "tools/simulate_options.h"
 #include "tools/trace.h"
 #include "tools/verbs.h"
 
@@ -21,22 +23,11 @@ constexpr const char* kHelp =
     R"(Example:
   portrait simulate --plant dipdt --kappa 0.24 --delta 0.7 --tau-i 8 --trace responses.csv
 
-Simulates one loop with dead time 1 and plant gain 1, for a unit setpoint step and a
-unit input-disturbance step, and prints its measures.)";
+  portrait simulate --plant tf:34/13.5,54.25,55,1 --pid standard:Kc=0.78,Ti=5.35
+  portrait simulate --plant jotd --j 4 --tau-j 2 --gains 0.4,1.3,1.0 --n 1 --tau-f 0.1
 
-/// The line as typed; empty means not given.
-struct SimulateArguments {
-  std::string plant, kappa, tau_i = "inf", delta, tau_d, tau_1, tau_f, b = "0", c = "0", prefilter,
-                            horizon = "auto", sampling, method = "kernel", trace;
-  int n = -1;
-  bool json = false;
-};
-
-/// Without --n a filter constant asks for a first-order filter.
-int filter_order(const SimulateArguments& a) {
-  if (a.n >= 0) return a.n;
-  return a.tau_f.empty() ? 0 : 1;
-}
+Simulates one loop for a unit setpoint step, a unit input-disturbance step and, beyond the
+normalised families (dead time 1, plant gain 1), a unit output step, and prints its measures.)";
 
 void set_derivative(const SimulateArguments& a, Setting& setting) {
   if (!a.delta.empty() && !a.tau_d.empty())
@@ -62,8 +53,9 @@ Loop loop_from(const SimulateArguments& a) {
   loop.family.prefilter =
       a.prefilter.empty() ? usual_prefilter(loop.family.n) : prefilter_argument("--prefilter", a.prefilter);
   Setting& s = loop.setting;
+  if (a.kappa.empty()) throw InputError("--kappa is missing: the controller's gain");
   s.kappa = number_argument("--kappa", a.kappa);
-  s.tau_i = number_argument("--tau-i", a.tau_i);
+  s.tau_i = a.tau_i.empty() ? kInf : number_argument("--tau-i", a.tau_i);
   set_derivative(a, s);
   s.tau_1 = family_number("--tau-1", a.tau_1, loop.family.plant == Plant::fotd, "fotd has one, T1/Td");
   s.tau_f = family_number("--tau-f", a.tau_f, loop.family.n >= 1, "a filter of order --n 1 or more has one, Tf/Td");
@@ -98,17 +90,36 @@ void trace_if_asked(const SimulateArguments& a, const Loop& loop, const Horizon&
                             stable ? "" : " (the loop is unstable)"));
 }
 
+Method method_of(const SimulateArguments& a) {
+  return a.method.empty() ? Method::kernel : method_argument("--method", a.method);
+}
+
+/// The reference measures more than the kernel does.
+std::vector<Measure> measures_of(Method method) {
+  if (method == Method::kernel) {
+    const auto standard = standard_measures();
+    return {standard.begin(), standard.end()};
+  }
+  const auto all = all_measures();
+  return {all.begin(), all.end()};
+}
+
 SettingMeasured measure(const SimulateArguments& a, const Loop& loop, const Horizon& horizon) {
-  const Method method = method_argument("--method", a.method);
+  const Method method = method_of(a);
   const std::optional<double> sampling = sampling_argument("--sampling", a.sampling);
   SettingMeasured measured;
-  measure_settings(method, loop.family, horizon, sampling, {&loop.setting, 1}, {&measured, 1});
+  measure_settings(method, loop.family, horizon, sampling, {&loop.setting, 1}, {&measured, 1}, true);
   if (measured.method != method)
     print_message("note: too stiff for the kernel's panels, measured by the reference method");
   return measured;
 }
 
 int simulate(const SimulateArguments& a) {
+  if (is_general(a)) return simulate_general(a);
+  if (!plant_named(a.plant))
+    throw InputError(fmt::format("--plant: unknown plant \"{}\"{}", a.plant,
+                                 suggestion(a.plant, {"dipdt", "ipdt", "fotd", "jotd", "tf:NUM/DEN"})));
+  if (a.j != 0) throw InputError("--j has no place here: jotd has it");
   const Loop loop = loop_from(a);
   const Horizon horizon = horizon_argument("--horizon", a.horizon);
   if (loop.family.n == 0 && loop.family.prefilter == Prefilter::full && loop.setting.delta > 0)
@@ -116,8 +127,7 @@ int simulate(const SimulateArguments& a) {
         "note: with n = 0 the prefilter \"full\" does not cancel the zeros of the setpoint response; \"pi\" does");
   const SettingMeasured measured = measure(a, loop, horizon);
   trace_if_asked(a, loop, horizon);
-  const auto all = all_measures();
-  const std::vector<Measure> measures(all.begin(), all.end());
+  const std::vector<Measure> measures = measures_of(method_of(a));
   if (a.json) {
     print_json({{"settings", json_settings(loop)},
                 {"measures", json_measures(measured.measures, measures)},
@@ -132,27 +142,30 @@ int simulate(const SimulateArguments& a) {
   return kDone;
 }
 
+/// Loops beyond the normalised families, in any consistent set of units.
+void add_general_options(CLI::App& verb, SimulateArguments& a) {
+  verb.add_option("--step", a.step, "sizes of the steps, w=,d=,o= (default: 1)");
+  verb.add_option("--noise", a.noise, "amplitude of measurement noise, with --sampling and a fixed --horizon");
+  verb.add_option("--noise-kind", a.noise_kind, "uniform in +-amplitude, or gaussian with that sigma")
+      ->capture_default_str();
+  verb.add_option("--seed", a.seed, "of the noise")->capture_default_str();
+  verb.add_option("--seeds", a.seeds, "this many seeds from it, for mean and spread")->check(CLI::Range(1, 10000));
+  verb.add_flag("--sampled", a.sampled, "the controller too runs at the sampling time and holds u");
+  verb.add_option("--time-unit", a.time_unit, "unit of time of a plant without dead time, for the normalisation");
+}
+
 }  // namespace
 
 void add_simulate(CLI::App& app, Invocation& invocation) {
   auto a = std::make_shared<SimulateArguments>();
   CLI::App* verb = add_verb(app, "simulate", "one loop: its measures and its responses", kHelp);
-  verb->add_option("--plant", a->plant, "dipdt, ipdt or fotd")->required();
-  verb->add_option("--kappa", a->kappa, "controller gain")->required();
-  verb->add_option("--tau-i", a->tau_i, "integral time Ti/Td; inf: no integral action")->capture_default_str();
-  verb->add_option("--delta", a->delta, "derivative gain, kappa tau_d");
-  verb->add_option("--tau-d", a->tau_d, "derivative time TD/Td, instead of --delta");
-  verb->add_option("--tau-1", a->tau_1, "plant time constant T1/Td (fotd)");
-  verb->add_option("--tau-f", a->tau_f, "filter time constant Tf/Td");
-  verb->add_option("--n", a->n, "filter order; 0: ideal derivative of the output")->check(CLI::NonNegativeNumber);
-  verb->add_option("--prefilter", a->prefilter, "full, pi or none (default: pi with n = 0, else full)");
-  verb->add_option("--b", a->b, "prefilter numerator, coefficient of s")->capture_default_str();
-  verb->add_option("--c", a->c, "prefilter numerator, coefficient of s^2")->capture_default_str();
+  add_loop_options(*verb, *a);
   verb->add_option("--horizon", a->horizon, "dead times to simulate, or auto")->capture_default_str();
   verb->add_option("--sampling", a->sampling, "dead times over which measurement noise is held, for noise_gain");
-  verb->add_option("--method", a->method, "kernel, as sweeps use it, or reference, its slow judge")
-      ->capture_default_str();
-  verb->add_option("--trace", a->trace, "write t, y and u of both steps to this CSV file");
+  verb->add_option("--method", a->method,
+                   "kernel, as sweeps use it (default), or reference, slow, with every measure");
+  verb->add_option("--trace", a->trace, "write t, y and u of the steps to this CSV file");
+  add_general_options(*verb, *a);
   verb->add_flag("--json", a->json, "one JSON object instead of tables");
   verb->callback([a, &invocation] { invocation.exit_code = simulate(*a); });
 }

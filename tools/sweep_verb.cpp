@@ -13,6 +13,7 @@
 #include "grids/grid_file.h"
 #include "grids/tiling.h"
 #include "portraits/writer.h"
+#include "tools/arguments.h"
 #include "tools/exit_codes.h"
 #include "tools/interrupt.h"
 #include "tools/output.h"
@@ -31,10 +32,12 @@ in a portrait. The file appears under its name only when it is complete and chec
 ends cleanly and leaves nothing behind.)";
 
 struct SweepArguments {
-  std::string grid, output;
+  std::string grid, output, method = "kernel";
   int threads = 0;
   bool dry_run = false, force = false, quiet = false, json = false;
 };
+
+Method method_of(const SweepArguments& a) { return method_argument("--method", a.method); }
 
 /// How many settings came out how.
 struct Tally {
@@ -46,11 +49,12 @@ struct Tally {
   std::uint64_t operator[](Status status) const { return count[static_cast<std::size_t>(status)]; }
 };
 
-SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads) {
+SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads, Method method) {
   SweepJob job;
   job.family = grid.family;
   job.horizon = grid.horizon;
   job.sampling = grid.sampling;
+  job.method = method;
   job.measures = grid.measures;
   job.tile_count = tiling.tile_count();
   job.threads = threads;
@@ -61,7 +65,7 @@ SweepJob job_for(const Grid& grid, const Tiling& tiling, int threads) {
 // ---------------------------------------------------------------- dry run
 
 /// Seconds a setting takes on one thread: settings spread evenly over the grid, for about half a second.
-double seconds_a_setting(const Grid& grid) {
+double seconds_a_setting(const Grid& grid, Method method) {
   using Clock = std::chrono::steady_clock;
   constexpr std::size_t kAtATime = TileQueue::kSliceSettings;  // as a sweep does
   const std::uint64_t count = setting_count(grid), samples = std::min<std::uint64_t>(count, 4096);
@@ -74,7 +78,7 @@ double seconds_a_setting(const Grid& grid) {
     for (; settings.size() < kAtATime && done < samples; ++done)
       settings.push_back(setting_at(grid, count / samples * (done * 97 % samples)));
     std::vector<SettingMeasured> measured(settings.size());
-    measure_settings(Method::kernel, grid.family, grid.horizon, grid.sampling, settings, measured);
+    measure_settings(method, grid.family, grid.horizon, grid.sampling, settings, measured);
     seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   }
   return seconds / static_cast<double>(done);
@@ -94,7 +98,7 @@ std::string size_text(double bytes) {
 
 int dry_run(const SweepArguments& a, const Grid& grid, const Tiling& tiling, int threads) {
   const std::uint64_t settings = setting_count(grid);
-  const double seconds = seconds_a_setting(grid) * static_cast<double>(settings) / threads;
+  const double seconds = seconds_a_setting(grid, method_of(a)) * static_cast<double>(settings) / threads;
   if (a.json) {
     print_json({{"dry_run", true},
                 {"settings", settings},
@@ -134,7 +138,7 @@ int report(const SweepArguments& a, const SweepOutcome& outcome, const Tally& ta
                 {"settings_per_second", rate},
                 {"threads", outcome.threads},
                 {"settings_by_reference", outcome.settings_by_reference},
-                {"method", method_text(Method::kernel)},
+                {"method", method_text(method_of(a))},
                 {"file", a.output}});
     return kDone;
   }
@@ -145,7 +149,7 @@ int report(const SweepArguments& a, const SweepOutcome& outcome, const Tally& ta
   print_message(fmt::format("{} settled, {} not settled at the horizon, {} unstable",
                             grouped(tally[Status::settled]), grouped(tally[Status::not_settled]),
                             grouped(tally[Status::unstable])));
-  if (outcome.settings_by_reference > 0)
+  if (outcome.settings_by_reference > 0 && method_of(a) == Method::kernel)
     print_message(
         fmt::format("{} settings, too stiff for the kernel's panels, were measured by the reference method",
                     grouped(outcome.settings_by_reference)));
@@ -163,7 +167,7 @@ int sweep_to_file(const SweepArguments& a, const Invocation& invocation, const G
   const std::filesystem::path output(a.output);
   mention_leftovers(output);
   InterruptGuard interrupt;
-  PortraitWriter writer(output, grid, {invocation.command_line, method_text(Method::kernel)},
+  PortraitWriter writer(output, grid, {invocation.command_line, method_text(job.method)},
                         a.force ? Existing::replace : Existing::refuse);
   interrupt.remove_on_second(writer.temporary_path().string());
   Tally tally;
@@ -188,9 +192,10 @@ int run(const SweepArguments& a, const Invocation& invocation) {
   const Grid grid = read_grid(a.grid);
   const Tiling tiling(grid);
   const int threads = a.threads > 0 ? a.threads : usual_threads();
+  if (const auto reason = why_not_measured(method_of(a), grid.measures)) throw InputError(a.grid + ": " + *reason);
   if (a.dry_run) return dry_run(a, grid, tiling, threads);
   if (a.output.empty()) throw InputError("-o FILE.h5 is missing: where shall the portrait go?");
-  return sweep_to_file(a, invocation, grid, job_for(grid, tiling, threads));
+  return sweep_to_file(a, invocation, grid, job_for(grid, tiling, threads, method_of(a)));
 }
 
 }  // namespace
@@ -201,6 +206,7 @@ void add_sweep(CLI::App& app, Invocation& invocation) {
   verb->add_option("grid", a->grid, "grid file")->required();
   verb->add_option("-o,--output", a->output, "portrait file to write");
   verb->add_option("--threads", a->threads, "threads (default: all)")->check(CLI::Range(1, 4096));
+  verb->add_option("--method", a->method, "kernel, or reference, slow, for every measure")->capture_default_str();
   verb->add_flag("--dry-run", a->dry_run, "only say how many settings, how long and how large");
   verb->add_flag("--force", a->force, "replace an existing portrait");
   verb->add_flag("--quiet", a->quiet, "no progress, no summary");

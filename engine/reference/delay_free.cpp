@@ -48,6 +48,25 @@ ClosedLoop closed(const OpenChain& chain, std::span<const Step> steps) {
   return loop;
 }
 
+/// States in units in which rows and columns of A are about as large: powers of 2, so nothing is rounded. High gains and
+/// short filters leave A with entries of 1e9 beside roots of 1e2, and an exponential loses as many digits. [Parlett1969]
+void balance(ClosedLoop& loop) {
+  bool done = false;
+  while (!done) {
+    done = true;
+    for (Eigen::Index i = 0; i < loop.A.rows(); ++i) {
+      const double own = std::abs(loop.A(i, i));
+      const double row = loop.A.row(i).cwiseAbs().sum() - own, column = loop.A.col(i).cwiseAbs().sum() - own;
+      if (!(row > 0 && column > 0)) continue;
+      const double unit = std::exp2(std::round(0.5 * std::log2(row / column)));
+      if (unit == 1 || column * unit + row / unit > 0.95 * (row + column)) continue;
+      done = false;
+      loop.A.row(i) /= unit, loop.E.row(i) /= unit;
+      loop.A.col(i) *= unit, loop.C.col(i) *= unit;
+    }
+  }
+}
+
 /// What a panel of one length does: x at its nodes and at its end, from x at its start.
 struct Map {
   std::vector<Eigen::MatrixXd> of_x, of_v;  ///< by node, 1 .. s: x(c_i h) - x(0) = of_x x(0) + of_v
@@ -73,6 +92,7 @@ class DelayFreeRun {
       : steps_(steps.begin(), steps.end()), nodes_(radau_nodes(accuracy.stages)), accuracy_(accuracy) {
     const OpenChain chain = open_chain(loop);
     loop_ = closed(chain, steps);
+    balance(loop_);
     const Eigen::VectorXcd roots = loop_.A.eigenvalues();
     if (roots.size() > 0) slowest_ = -roots.real().maxCoeff(), fastest_ = 1 / roots.cwiseAbs().maxCoeff();
     x_ = Eigen::MatrixXd::Zero(loop_.A.rows(), columns());

@@ -15,8 +15,13 @@
 namespace portrait {
 namespace {
 
-SettingMeasured measured_by_reference(const Loop& loop, Horizon horizon, std::optional<double> sampling) try {
-  const reference::Measured m = reference::measure(loop, horizon, {}, sampling);
+/// An ideal derivative of the output makes an impulse of its step.
+bool has_output_step(const Loop& loop) { return loop.family.n > 0 || loop.setting.delta == 0; }
+
+SettingMeasured measured_by_reference(const Loop& loop, Horizon horizon, std::optional<double> sampling,
+                                      bool output_step = false) try {
+  const auto steps = std::span(reference::kAllSteps).first(output_step && has_output_step(loop) ? 3 : 2);
+  const reference::Measured m = reference::measure(loop, horizon, {}, sampling, steps);
   return {m.status, m.measures, m.horizon, Method::reference};
 } catch (const std::exception& failure) {
   throw std::runtime_error(fmt::format("{}\nreproduce: {}", failure.what(), simulate_command(loop)));
@@ -53,11 +58,19 @@ std::string method_text(Method method) {
 }
 
 void measure_settings(Method method, const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
-                      std::span<const Setting> settings, std::span<SettingMeasured> results) {
+                      std::span<const Setting> settings, std::span<SettingMeasured> results, bool output_step) {
   PORTRAIT_CHECK_EQ(settings.size(), results.size());
   if (method == Method::kernel) return measure_by_kernel(family, horizon, sampling, settings, results);
   for (std::size_t i = 0; i < settings.size(); ++i)
-    results[i] = measured_by_reference({family, settings[i]}, horizon, sampling);
+    results[i] = measured_by_reference({family, settings[i]}, horizon, sampling, output_step);
+}
+
+std::optional<std::string> why_not_measured(Method method, std::span<const Measure> measures) {
+  for (const Measure m : measures)
+    if (method == Method::kernel && !is_standard(m))
+      return fmt::format("the kernel does not measure {}: --method reference does, one setting after the other",
+                         to_string(m));
+  return std::nullopt;
 }
 
 }  // namespace portrait

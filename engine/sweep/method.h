@@ -37,8 +37,13 @@ struct SettingMeasured {
   Method method = Method::reference;  ///< the kernel leaves what its finest panels cannot resolve to the reference
 };
 
-/// `sampling` in dead times, for noise_gain, which is NaN without it. REQUIRES: settings valid; as many results.
+/// Why this method does not measure this, and which does ("the kernel does not measure TV3_uw: ..."), or nothing.
+std::optional<std::string> why_not_measured(Method method, std::span<const Measure> measures);
+
+/// `sampling` in dead times, for noise_gain, which is NaN without it; `output_step` for the measures of the step o, which
+/// are NaN without it. REQUIRES: settings valid; as many results.
 void measure_settings(Method method, const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
-                      std::span<const Setting> settings, std::span<SettingMeasured> results);
+                      std::span<const Setting> settings, std::span<SettingMeasured> results,
+                      bool output_step = false);
 
 }  // namespace portrait

@@ -64,7 +64,9 @@ class Worker {
   void measure(const Slice& slice) {
     const auto settings = std::span(slice.tile->settings).subspan(slice.first, slice.count);
     measured_.resize(slice.count);
-    measure_settings(job_.method, job_.family, job_.horizon, sampling_, settings, measured_);
+    measure_settings(
+        job_.method, job_.family, job_.horizon, sampling_, settings, measured_,
+        std::any_of(job_.measures.begin(), job_.measures.end(), [](Measure m) { return info(m).step == 'o'; }));
     for (std::size_t i = 0; i < slice.count; ++i) {
       slice.tile->columns.set(slice.first + i, measured_[i].status, measured_[i].measures);
       if (measured_[i].method != job_.method) ++left_over_;
@@ -91,6 +93,7 @@ class Worker {
 int usual_threads() { return omp_get_max_threads(); }
 
 SweepOutcome sweep(const SweepJob& job) {
+  PORTRAIT_CHECK(!why_not_measured(job.method, job.measures));
   PORTRAIT_CHECK(job.sampling || !keeps(job.measures, Measure::noise_gain));
   const auto begin = std::chrono::steady_clock::now();
   const int threads = job.threads > 0 ? job.threads : usual_threads();

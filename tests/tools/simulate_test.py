@@ -99,7 +99,7 @@ class Simulate(ProgramTest):
             ((*base, "--kappa", "1", "--prefilter", "none", "--b", "1"),
              'b and c belong to a prefilter: with prefilter = "none" both must be 0'),
             (("simulate", "--plant", "fodt", "--kappa", "1"), '--plant: unknown plant "fodt" (did you mean "fotd"?)'),
-            (("simulate", "--plant", "mass", "--kappa", "1"), '--plant: unknown plant "mass" (known: dipdt, ipdt, fotd)'),
+            (("simulate", "--plant", "mass", "--kappa", "1"), '--plant: unknown plant "mass" (known: dipdt, ipdt, fotd, jotd, tf:NUM/DEN)'),
             (("simulate", "--plant", "fotd", "--kappa", "1"), "--tau-1 is missing: fotd has one, T1/Td"),
             (("simulate", "--plant", "ipdt", "--kappa", "2", "--trace", "r.csv"),
              "--trace of an unstable loop needs a fixed --horizon: its responses never settle"),

@@ -46,10 +46,17 @@ class Characteristic {
     for (int i = 0; i < loop.family.n; ++i) multiply_by_lag(D_, s.tau_f);
   }
 
+  explicit Characteristic(const GeneralLoop& loop) : Td_(loop.plant.dead_time), any_roots_(true) {
+    const Polynomial N = product(loop.plant.rational.numerator, loop.controller.on_output);
+    const Polynomial D =
+        product(written_out(loop.plant.rational.denominator), written_out(loop.controller.denominator));
+    N_.assign(N.begin(), N.end()), D_.assign(D.begin(), D.end());
+  }
+
   Valued operator()(Complex s) const {
     const Valued N = horner(N_, s), D = horner(D_, s);
-    const Complex delay = std::exp(-s);
-    return {D.value + N.value * delay, D.slope + (N.slope - N.value) * delay};
+    const Complex delay = std::exp(-Td_ * s);
+    return {D.value + N.value * delay, D.slope + (N.slope - Td_ * N.value) * delay};
   }
 
   /// No root lies further out in the right half-plane: |D(s)| >= |D(j|s|)| does not hold, but |D(s)| >= |s|^k and
@@ -64,12 +71,16 @@ class Characteristic {
   /// The bound of |N/D| falls with |s| once it is below 1 at the highest powers.
   bool dominated_beyond(Real R) const {
     Real n = 0, power = 1;
-    for (const Real a : N_) n += a * power, power *= R;
+    for (const Real a : N_) n += std::abs(a) * power, power *= R;
     const std::size_t last = D_.size() - 1;
-    return n < Real{0.999999} * D_[last] * std::pow(R, static_cast<Real>(last));
+    power = 1;
+    for (std::size_t i = 0; i < last && any_roots_; ++i) n += std::abs(D_[i]) * power, power *= R;
+    return n < Real{0.999999} * std::abs(D_[last]) * std::pow(R, static_cast<Real>(last));
   }
 
   Coefficients N_, D_;
+  Real Td_ = 1;
+  bool any_roots_ = false;  ///< then |D(s)| >= |d_n| |s|^n - |d_(n-1)| |s|^(n-1) - ... is all that is known
 };
 
 class Walk {
@@ -103,8 +114,9 @@ class Walk {
 
 }  // namespace
 
-int unstable_roots_by_contour(const Loop& loop) {
-  const Characteristic f(loop);
+namespace {
+
+int counted(const Characteristic& f) {
   const Walk walk(f);
   const Real R = f.radius();
   const Real up = walk.along([R](Real t) { return Complex(0, R * t); }, R);
@@ -113,5 +125,10 @@ int unstable_roots_by_contour(const Loop& loop) {
   // The whole contour runs against the clock: down the axis, and back from -jR over R to jR.
   return static_cast<int>(std::lround(-(up + back) / std::numbers::pi_v<Real>));
 }
+
+}  // namespace
+
+int unstable_roots_by_contour(const Loop& loop) { return counted(Characteristic(loop)); }
+int unstable_roots_by_contour(const GeneralLoop& loop) { return counted(Characteristic(loop)); }
 
 }  // namespace portrait

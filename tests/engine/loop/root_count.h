@@ -8,11 +8,15 @@
 /// most. Slow, knows nothing of crossovers, and judges `unstable_roots`.
 #pragma once
 
+#include "engine/loop/general_loop.h"
 #include "engine/loop/loop.h"
 
 namespace portrait {
 
 /// REQUIRES: the loop is valid; a neutral loop's high-frequency gain is below 1.
 int unstable_roots_by_contour(const Loop& loop);
+
+/// Of a general loop. REQUIRES: as above; none of its roots lies on the imaginary axis.
+int unstable_roots_by_contour(const GeneralLoop& loop);
 
 }  // namespace portrait
