@@ -79,6 +79,16 @@ TEST_P(Responses, AnAutomaticHorizonGivesTheWholeIntegrals) {
   }
 }
 
+/// The limit of a vanishing filter is the ideal derivative, which knows nothing of filters.
+TEST_P(Responses, AVanishingFilterTendsToTheIdealDerivative) {
+  const Setting setting{.kappa = 0.1248, .tau_i = 10.324, .delta = 0.5045, .tau_f = 1e-9};
+  const auto filtered = measure_one(*GetParam(), {{Plant::dipdt, 1, Prefilter::full}, setting}, Horizon::fixed(30));
+  const auto ideal = measure_one(*GetParam(), {{Plant::dipdt, 0, Prefilter::pi}, setting}, Horizon::fixed(30));
+  EXPECT_TRUE(filtered.resolved);
+  for (const Measure m : {Measure::IAE_d, Measure::ISE_d, Measure::TV_yd, Measure::TV_ud, Measure::TV_uw})
+    EXPECT_LT(error_of(filtered.measures[m], ideal.measures[m]), 1e-8) << to_string(m);
+}
+
 /// A setting's bits do not depend on what stands beside it.
 TEST_P(Responses, NeighboursDoNotMatter) {
   const kernel::Implementation& implementation = *GetParam();
