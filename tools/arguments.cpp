@@ -113,4 +113,37 @@ StepSizes step_argument(std::string_view option, std::string_view text) {
   return steps;
 }
 
+Setting setting_argument(std::string_view option, std::string_view text, const Grid& grid) {
+  std::vector<std::pair<Parameter, double>> given;
+  for (const auto& [name, value] : assignments(option, text)) {
+    const auto parameter = parameter_named(name);
+    const std::vector<Parameter> known = parameters_of(grid.family);
+    if (!parameter || std::find(known.begin(), known.end(), *parameter) == known.end()) {
+      std::vector<std::string_view> names;
+      for (const Parameter one : known) names.push_back(to_string(one));
+      fail(option, fmt::format("unknown parameter \"{}\"{}", name, suggestion(name, names)));
+    }
+    given.emplace_back(*parameter, number_argument(option, value));
+  }
+  const auto is_given = [&](Parameter one) {
+    return std::any_of(given.begin(), given.end(), [&](const auto& entry) { return entry.first == one; });
+  };
+  const bool has_derivative = is_given(Parameter::delta) || is_given(Parameter::tau_d);
+  for (const Axis& axis : grid.axes) {
+    const bool derivative = axis.parameter() == Parameter::delta || axis.parameter() == Parameter::tau_d;
+    if (!is_given(axis.parameter()) && !(derivative && has_derivative))
+      fail(option, fmt::format("{} is missing, an axis of the portrait", axis.name()));
+  }
+  for (const FixedParameter& fixed : grid.fixed) {
+    const bool derivative = fixed.parameter == Parameter::delta || fixed.parameter == Parameter::tau_d;
+    if (!is_given(fixed.parameter) && !(derivative && has_derivative))
+      given.emplace_back(fixed.parameter, fixed.value);
+  }
+  Setting setting;
+  for (const bool last : {false, true})  // tau_d needs kappa
+    for (const auto& [parameter, value] : given)
+      if ((parameter == Parameter::tau_d) == last) set(setting, parameter, value);
+  return setting;
+}
+
 }  // namespace portrait::tools

@@ -10,6 +10,7 @@
 #include "engine/loop/horizon.h"
 #include "engine/loop/real_plant.h"
 #include "engine/sweep/method.h"
+#include "grids/grid.h"
 #include "portraits/query/query_units.h"
 
 namespace portrait::tools {
@@ -32,5 +33,9 @@ RealPlant real_plant_argument(std::string_view option, std::string_view text, Pl
 
 /// "w=2,d=0.5": sizes of steps, 1 where none is given.
 StepSizes step_argument(std::string_view option, std::string_view text);
+
+/// "kappa=0.2,tau_i=8,delta=0.5": a setting of the grid's family; what is not named has the grid's fixed value, an axis
+/// must be named.
+Setting setting_argument(std::string_view option, std::string_view text, const Grid& grid);
 
 }  // namespace portrait::tools

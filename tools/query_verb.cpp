@@ -1,6 +1,7 @@
 /// portrait query: what a portrait answers, in normalised or real units.
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -8,9 +9,11 @@
 #include "engine/base/error.h"
 #include "engine/base/words.h"
 #include "portraits/query/query.h"
+#include "portraits/query/refine.h"
 #include "portraits/reader.h"
 #include "tools/arguments.h"
 #include "tools/exit_codes.h"
+#include "tools/query_kinds.h"
 #include "tools/query_output.h"
 #include "tools/query_rules.h"
 #include "tools/verbs.h"
@@ -28,13 +31,22 @@ meet every constraint. Expressions are over the portrait's measures (IAE_w, TV2_
 and its axes (kappa, tau_i, ...) with + - * / ^, parentheses, abs, min, max, sqrt, log, exp.
 With --plant all measures, and so the bounds on them, are in real units, for steps of the
 sizes that --step gives, and the values of the real controller, Kc Ti TD Ki Kd Tf, can be
-named as well; names of axes keep meaning normalised values.)";
+named as well; names of axes keep meaning normalised values.
+
+More answers:
+  portrait query huba.h5 --minimize IAE_d --where 'Ms <= 2' --refine
+  portrait query huba.h5 --pareto IAE_w,IAE_d,TV_uw --where 'Ms <= 2'
+  portrait query huba.h5 --minimize IAE_d --along Ms=1.4..2.2:9 --refine
+  portrait query huba.h5 --why kappa=0.3,tau_i=8,delta=0.7 --where 'TV2_ud <= 0.1'
+  portrait query huba.h5 --region --where 'Ms <= 2')";
 
 struct QueryArguments {
-  std::string file, minimize, plant, step;
+  std::string file, minimize, plant, step, pareto, why, along;
   std::vector<std::string> where;
-  std::size_t top = 1;
+  std::size_t top = 1, points = 12;
   int threads = 0;
+  double coarse = 100 * kCoarseFrom;
+  bool refine = false, region = false;
   bool include_not_settled = false, rules = false, json = false, csv = false;
 };
 
@@ -43,6 +55,8 @@ struct Asked {
   const Grid& grid;
   const Question& question;
   const Answer& answer;
+  std::optional<Refined> refined;
+  double coarse = kCoarseFrom;
 
   const QueryUnits& units() const { return question.conditions.units; }
   const std::string& constraint(std::size_t j) const { return question.conditions.where[j].text(); }
@@ -57,6 +71,10 @@ Conditions conditions_from(const QueryArguments& a, const Grid& grid) {
   conditions.include_not_settled = a.include_not_settled;
   conditions.threads = a.threads;
   return conditions;
+}
+
+Found found_of(const Refined& refined) {
+  return {0, refined.best.setting, refined.best.measures, refined.objective, refined.best.status};
 }
 
 // ---------------------------------------------------------------- JSON
@@ -96,6 +114,29 @@ Json json_near_miss(const Asked& asked) {
   return {{"settings", json_settings({asked.grid.family, miss->found.setting})}, {"violations", violations}};
 }
 
+Json json_names(const std::vector<Parameter>& parameters) {
+  Json names = Json::array();
+  for (const Parameter parameter : parameters) names.push_back(to_string(parameter));
+  return names;
+}
+
+Json json_refined(const Asked& asked) {
+  const Refined& refined = *asked.refined;
+  Json json = json_found(asked.grid, asked.units(), found_of(refined));
+  Json prices = Json::array();
+  for (std::size_t j = 0; j < refined.prices.size(); ++j)
+    prices.push_back({{"constraint", asked.constraint(j)},
+                      {"price", json_number(refined.prices[j])},
+                      {"value", json_number(refined.left[j])}});
+  json["gain"] = json_number(refined.gain());
+  json["prices"] = prices;
+  json["at_edge"] = json_names(refined.at_edge);
+  json["converged"] = refined.converged;
+  json["settings_measured"] = refined.settings_measured;
+  json["grid_too_coarse"] = refined.gain() > asked.coarse;
+  return json;
+}
+
 void print_as_json(const Asked& asked, const std::optional<std::vector<RuleOnPortrait>>& rules) {
   const Answer& answer = asked.answer;
   Json top = Json::array();
@@ -110,6 +151,8 @@ void print_as_json(const Asked& asked, const std::optional<std::vector<RuleOnPor
               {"not_settled", answer.left_out.not_settled},
               {"not_computed", answer.left_out.not_computed},
               {"objective_missing", answer.left_out.objective_missing}}}};
+  if (asked.refined) json["refined"] = json_refined(asked);
+  if (!answer.top.empty()) json["at_edge"] = json_names(edges_at(asked.grid, answer.top[0].setting));
   add_units(json, asked.grid, asked.question.conditions);
   if (answer.top.empty()) {
     json["excluded"] = json_excluded(asked);
@@ -167,13 +210,49 @@ std::string others_text(const Asked& asked) {
   return text;
 }
 
+std::string names_text(const std::vector<Parameter>& parameters) {
+  std::vector<std::string_view> names;
+  for (const Parameter parameter : parameters) names.push_back(to_string(parameter));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string refined_text(const Asked& asked) {
+  if (!asked.refined) return "";
+  const Refined& refined = *asked.refined;
+  std::string text =
+      fmt::format("\nrefined: {} = {:.10g} at {}\n  {} better than the grid ({} settings measured{})\n",
+                  asked.question.minimize.text(), refined.objective, setting_text(asked.grid, found_of(refined)),
+                  percent(refined.gain()), refined.settings_measured, refined.converged ? "" : ", not converged");
+  for (std::size_t j = 0; j < refined.prices.size(); ++j)
+    if (refined.prices[j] > 0)
+      text +=
+          fmt::format("  active: {}; 1 % looser gives {} better\n", asked.constraint(j),
+                      percent(refined.prices[j] * 0.01 * std::abs(refined.right[j]) / std::abs(refined.objective)));
+  return text + found_text(asked.grid, asked.units(), found_of(refined));
+}
+
+/// What the user should know of the grid, to stderr.
+void warn(const Asked& asked) {
+  const auto edges = edges_at(asked.grid, asked.answer.top[0].setting);
+  if (!edges.empty())
+    print_message(fmt::format("note: the optimum lies on the edge of the grid ({}); better may lie beyond",
+                              names_text(edges)));
+  if (!asked.refined) return;
+  if (!asked.refined->at_edge.empty())
+    print_message(fmt::format("note: the refined optimum lies on the edge of the grid ({})",
+                              names_text(asked.refined->at_edge)));
+  if (asked.refined->gain() > asked.coarse)
+    print_message(fmt::format("note: the grid is too coarse here: between its points the optimum is {} better",
+                              percent(asked.refined->gain())));
+}
+
 void print_as_table(const Asked& asked) {
   const Found& best = asked.answer.top.front();
   std::string text = fmt::format("{} = {} at {}\n", asked.question.minimize.text(), short_number(best.objective),
                                  setting_text(asked.grid, best));
   text += share_text(asked.answer) + active_text(asked);
   if (asked.constraints() > 0) text += "\nconstraints\n" + units_text(asked.grid, asked.question.conditions);
-  print_text(text + found_text(asked.grid, asked.units(), best) + others_text(asked));
+  print_text(text + found_text(asked.grid, asked.units(), best) + others_text(asked) + refined_text(asked));
 }
 
 /// Why nothing is admissible, and what comes nearest.
@@ -195,17 +274,34 @@ std::optional<double> optimum_of(const Answer& answer) {
   return answer.top.empty() ? std::nullopt : std::optional(answer.top.front().objective);
 }
 
+int best(const QueryArguments& a, const QueryRequest& request);
+
 int query(const QueryArguments& a) {
   if (a.json && a.csv) throw InputError("--json and --csv: give one of the two");
   const PortraitReader portrait(a.file);
-  const Question question{.minimize = parse_expression({"--minimize", a.minimize}),
-                          .conditions = conditions_from(a, portrait.grid()),
-                          .top = a.top};
-  const Answer answer = ask(portrait, question);
-  const Asked asked{portrait.grid(), question, answer};
-  const auto rules = a.rules ? std::optional(rules_on(portrait.grid(), question, optimum_of(answer))) : std::nullopt;
+  const QueryRequest request{portrait, conditions_from(a, portrait.grid()),
+                             a.json  ? OutputForm::json
+                             : a.csv ? OutputForm::csv
+                                     : OutputForm::text};
+  if (!a.pareto.empty()) return print_pareto(request, a.pareto, a.points);
+  if (a.region) return print_region(request);
+  if (!a.why.empty() && a.along.empty()) return print_why(request, a.why, a.minimize);
+  if (a.minimize.empty()) throw InputError("--minimize is missing: an expression, as IAE_w + IAE_d");
+  if (!a.along.empty()) return print_along(request, a.minimize, a.along, a.refine, a.why);
+  return best(a, request);
+}
+
+int best(const QueryArguments& a, const QueryRequest& request) {
+  const Question question{
+      .minimize = parse_expression({"--minimize", a.minimize}), .conditions = request.conditions, .top = a.top};
+  const Answer answer = ask(request.portrait, question);
+  Asked asked{request.grid(), question, answer, std::nullopt, a.coarse / 100};
+  if (a.refine && !answer.top.empty())
+    asked.refined = refine(request.grid(), question.minimize, question.conditions, answer.top[0].setting);
+  if (!answer.top.empty() && request.form == OutputForm::text) warn(asked);
+  const auto rules = a.rules ? std::optional(rules_on(request.grid(), question, optimum_of(answer))) : std::nullopt;
   if (a.json) print_as_json(asked, rules);
-  if (a.csv) print_text(csv_text(portrait.grid(), answer.top));
+  if (a.csv) print_text(csv_text(request.grid(), answer.top));
   if (answer.top.empty()) {
     std::string text = none_text(asked);
     text.pop_back();
@@ -223,7 +319,15 @@ void add_query(CLI::App& app, Invocation& invocation) {
   auto a = std::make_shared<QueryArguments>();
   CLI::App* verb = add_verb(app, "query", "the best settings of a portrait under constraints", kHelp);
   verb->add_option("file", a->file, "portrait file")->required();
-  verb->add_option("--minimize", a->minimize, "what to minimize: an expression")->required();
+  verb->add_option("--minimize", a->minimize, "what to minimize: an expression");
+  verb->add_option("--pareto", a->pareto, "EXPR,EXPR[,EXPR]: the settings that no other beats in all of these");
+  verb->add_option("--points", a->points, "how many of the front to list, evenly spread")->capture_default_str();
+  verb->add_flag("--region", a->region, "the admissible region: its size, place and shape");
+  verb->add_option("--why", a->why, "kappa=..,tau_i=..: which constraints this setting fails, by how much");
+  verb->add_option("--along", a->along, "EXPR=FROM..TO:COUNT: the best objective for each EXPR <= bound");
+  verb->add_flag("--refine", a->refine, "the optimum between the grid's points, with the engine");
+  verb->add_option("--coarse", a->coarse, "gain by --refine, in %, above which the grid is called too coarse")
+      ->capture_default_str();
   verb->add_option("--where", a->where, "a constraint, EXPR <= X (or <, >=, >, ==); any number of times")
       ->take_all()
       ->expected(1)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "portraits/query/admission.h"
 #include "portraits/query/workers.h"
 
 namespace portrait {
@@ -11,25 +12,17 @@ namespace {
 class Selecting {
  public:
   Selecting(const Sheet& sheet, const Expression& objective, const std::vector<Constraint>& where)
-      : sheet_(sheet), objective_(objective), where_(where) {}
+      : sheet_(sheet), objective_(objective), admission_(sheet, where) {}
 
   /// Everything but the best of tiles that are admissible throughout: those wait.
   void first(Selection& selection, TilePage& page, std::uint64_t tile) const {
-    const Outlook slice = sheet_.in_slice(tile);
-    if (slice == Outlook::never) return;
-    const bool is_counted = count_unread(sheet_, tile, selection.counted);
-    if (is_counted && sheet_.most_eligible(tile) == 0) return;
     thread_local std::vector<Interval> stack;
-    thread_local std::vector<const Constraint*> open;
-    const bool possible = undecided(tile, stack, open);
-    if (is_counted && !possible) return;
+    thread_local Admission::Glance glance;
+    if (!admission_.glance(tile, selection.counted, glance)) return;
     const Interval bound = sheet_.bound(objective_, tile, stack);
-    if (is_counted && open.empty() && !bound.may_be_nan) {
-      selection.admissible += sheet_.most_eligible(tile);
-      selection.waiting.emplace_back(bound.low, tile);
-      return;
-    }
-    read(selection, page, tile, open, bound, is_counted, possible);
+    if (!glance.whole() || bound.may_be_nan) return read(selection, page, tile, glance, bound);
+    selection.admissible += sheet_.most_eligible(tile);
+    selection.waiting.emplace_back(bound.low, tile);
   }
 
   /// A tile that waited, unless others are better throughout. They come in order of their least objective.
@@ -42,25 +35,10 @@ class Selecting {
   }
 
  private:
-  /// False when a constraint holds nowhere in the tile; `open` gets those that hold in a part of it, perhaps.
-  bool undecided(std::uint64_t tile, std::vector<Interval>& stack, std::vector<const Constraint*>& open) const {
-    open.clear();
-    for (const Constraint& constraint : where_) {
-      const Outlook outlook = sheet_.outlook(constraint, tile, stack);
-      if (outlook == Outlook::never) return false;
-      if (outlook == Outlook::maybe) open.push_back(&constraint);
-    }
-    return true;
-  }
-
-  void read(Selection& selection, TilePage& page, std::uint64_t tile, const std::vector<const Constraint*>& open,
-            const Interval& bound, bool is_counted, bool possible) const {
+  void read(Selection& selection, TilePage& page, std::uint64_t tile, const Admission::Glance& glance,
+            const Interval& bound) const {
     thread_local std::vector<std::size_t> chosen;
-    thread_local Filter filter;
-    page.open(tile);
-    choose(sheet_, page, chosen, is_counted ? nullptr : &selection.counted);
-    if (!possible) return;
-    for (const Constraint* constraint : open) filter.keep(*constraint, page, chosen);
+    admission_.choose(tile, glance, page, selection.counted, chosen);
     if (chosen.empty()) return;
     if (!bound.may_be_nan && bound.low > enough_.value())
       selection.admissible += chosen.size();  // none of them comes into the ranking
@@ -87,7 +65,7 @@ class Selecting {
 
   const Sheet& sheet_;
   const Expression& objective_;
-  const std::vector<Constraint>& where_;
+  Admission admission_;
   mutable SharedLeast enough_;  ///< some thread's ranking is full of objectives at most this
 };
 

@@ -1,0 +1,184 @@
+/// Front, region, nearest setting and trade-off over random portraits, against plain loops.
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "engine/base/error.h"
+#include "portraits/query/pareto.h"
+#include "portraits/query/region.h"
+#include "portraits/query/trade_off.h"
+#include "tests/portraits/query/memory_source.h"
+#include "tests/portraits/query/random_question.h"
+
+namespace portrait {
+namespace {
+
+/// A random question that fits its portrait; the property is discarded otherwise.
+struct Drawn {
+  MemorySource source = random_source(random_grid());
+  Case one = random_case(source.grid());
+
+  Drawn() {
+    bool fits = true;
+    try {
+      require_answerable(one.question.conditions, source.grid());
+    } catch (const InputError&) {
+      fits = false;
+    }
+    RC_PRE(fits);
+  }
+  const Conditions& conditions() const { return one.question.conditions; }
+
+  /// The settings that the query calls admissible under an objective that always exists: held by the other tests.
+  std::vector<std::uint64_t> admissible() const {
+    Question all = one.question;
+    all.minimize = parse_expression({"test", "0"});
+    all.top = kMaxTop;
+    std::vector<std::uint64_t> numbers;
+    const Answer answer = ask(source, all);
+    for (const Found& found : answer.top) numbers.push_back(found.number);
+    return numbers;
+  }
+  double value(const Expression& expression, std::uint64_t number) const {
+    const Found found = found_at(source, conditions().units, number, 0);
+    return value_at(expression, {found.setting, found.status, found.measures, conditions().units.plant});
+  }
+};
+
+Expression expression(const std::string& text) { return parse_expression({"test", text}); }
+
+RC_GTEST_PROP(Pareto, is_what_comparing_all_pairs_gives, ()) {
+  const Drawn drawn;
+  const std::vector<std::string> texts = {"IAE_w", "IAE_d - IAE_w", "TV2_uw"};
+  ParetoQuestion question{{}, drawn.conditions(), *rc::gen::inRange<std::size_t>(2, 9)};
+  const std::size_t objectives = *rc::gen::inRange<std::size_t>(2, 4);
+  for (std::size_t k = 0; k < objectives; ++k) question.minimize.push_back(expression(texts[k]));
+  std::vector<FrontPoint> all;
+  for (const std::uint64_t number : drawn.admissible()) {
+    FrontPoint point{number, {}};
+    bool exists = true;
+    for (std::size_t k = 0; k < objectives; ++k) {
+      point.values[k] = drawn.value(question.minimize[k], number);
+      exists = exists && !std::isnan(point.values[k]);
+    }
+    if (exists) all.push_back(point);
+  }
+  const ParetoAnswer answer = pareto(drawn.source, question);
+  RC_ASSERT(answer.admissible == all.size());
+  std::vector<std::uint64_t> expected, found;
+  for (const FrontPoint& point : all)
+    if (std::none_of(all.begin(), all.end(), [&](const FrontPoint& other) {
+          return dominates(other, point) || (other.values == point.values && other.number < point.number);
+        }))
+      expected.push_back(point.number);
+  for (const FrontPoint& point : answer.front) found.push_back(point.number);
+  std::sort(found.begin(), found.end());
+  RC_ASSERT(found == expected);
+  RC_ASSERT(std::is_sorted(answer.front.begin(), answer.front.end(),
+                           [](const FrontPoint& a, const FrontPoint& b) { return a.values < b.values; }));
+  RC_ASSERT(answer.subset.size() <= question.subset);
+  if (!answer.front.empty()) RC_ASSERT(answer.subset.front() == 0u);
+}
+
+TEST(Pareto, knee_and_subset_of_a_known_front) {
+  std::vector<FrontPoint> front;
+  for (int i = 0; i <= 100; ++i) {
+    const double x = 1 + 0.01 * i;
+    front.push_back({static_cast<std::uint64_t>(i), {x, 3 / x, 0}});
+  }
+  // Scaled, f = x - 1 and g = (3/x - 1.5)/1.5: their sum is least where 1 = 2/x^2.
+  EXPECT_EQ(knee_of(front, 2), 41u);
+  const std::vector<std::size_t> three = even_subset(front, 2, 3);
+  ASSERT_EQ(three.size(), 3u);
+  EXPECT_EQ(three.front(), 0u);
+  EXPECT_EQ(three.back(), 100u);
+  EXPECT_NEAR(static_cast<double>(three[1]), 41, 8);
+  EXPECT_EQ(even_subset(front, 2, 1000).size(), 101u);
+}
+
+RC_GTEST_PROP(Region, is_what_a_plain_loop_counts, ()) {
+  const Drawn drawn;
+  const Grid& grid = drawn.source.grid();
+  const Region found = region(drawn.source, drawn.conditions());
+  const std::vector<std::uint64_t> admissible = drawn.admissible();
+  RC_ASSERT(found.admissible == admissible.size());
+  for (std::size_t k = 0; k < grid.axes.size(); ++k) {
+    std::vector<std::uint64_t> counts(grid.axes[k].size());
+    for (const std::uint64_t number : admissible) ++counts[coordinates(grid, number)[k]];
+    RC_ASSERT(found.axes[k].counts == counts);
+    if (found.axes[k].first) RC_ASSERT(counts[*found.axes[k].first] > 0u);
+    RC_ASSERT(found.axes[k].at_lower_edge == (counts.front() > 0));
+  }
+}
+
+RC_GTEST_PROP(Region, the_nearest_setting_is_nearest, ()) {
+  const Drawn drawn;
+  const Grid& grid = drawn.source.grid();
+  const std::uint64_t from = *rc::gen::inRange<std::uint64_t>(0, setting_count(grid));
+  Setting setting = setting_at(grid, from);
+  if (*rc::gen::arbitrary<bool>()) setting.kappa *= 1.03;
+  const auto found = nearest_admissible(drawn.source, drawn.conditions(), setting);
+  std::optional<std::uint64_t> expected;
+  double least = kInf;
+  for (const std::uint64_t number : drawn.admissible()) {
+    double sum = 0;
+    for (const Axis& axis : grid.axes) {
+      const double apart =
+          place_on(axis, get(setting, axis.parameter())) -
+          place_on(axis, axis[coordinates(grid, number)[static_cast<std::size_t>(&axis - grid.axes.data())]]);
+      sum += apart * apart;
+    }
+    if (!expected || std::sqrt(sum) < least) {
+      expected = number;
+      least = std::sqrt(sum);
+    }
+  }
+  RC_ASSERT(found.has_value() == expected.has_value());
+  if (!found) return;
+  RC_ASSERT(found->distance == least);
+  RC_ASSERT(found->found.number == *expected);
+}
+
+RC_GTEST_PROP(TradeOff, is_one_query_a_bound, ()) {
+  const Drawn drawn;
+  const std::vector<double> bounds = {0.25, 1, 2, 3.5, 9};
+  const Expression along = expression("TV2_uw");
+  const auto points = trade_off(drawn.source, drawn.one.question, along, bounds);
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    Question asked = drawn.one.question;
+    asked.conditions.where.push_back(bound_constraint(along, bounds[i]));
+    const Answer answer = ask(drawn.source, asked);
+    RC_ASSERT(points[i].best.has_value() == !answer.top.empty());
+    if (points[i].best) RC_ASSERT(points[i].best->number == answer.top[0].number);
+  }
+}
+
+/// The constraints in another order, one of them twice.
+RC_GTEST_PROP(QueryInvariance, order_and_repetition_of_constraints_change_nothing, ()) {
+  const Drawn drawn;
+  const Answer before = ask(drawn.source, drawn.one.question);
+  Question asked = drawn.one.question;
+  std::reverse(asked.conditions.where.begin(), asked.conditions.where.end());
+  if (!asked.conditions.where.empty()) asked.conditions.where.push_back(asked.conditions.where.front());
+  const Answer after = ask(drawn.source, asked);
+  RC_ASSERT(after.admissible == before.admissible);
+  RC_ASSERT(after.top.size() == before.top.size());
+  for (std::size_t i = 0; i < after.top.size(); ++i) RC_ASSERT(after.top[i].number == before.top[i].number);
+}
+
+RC_GTEST_PROP(QueryInvariance, loosening_never_worsens, ()) {
+  const Drawn drawn;
+  Question tight = drawn.one.question, loose = drawn.one.question;
+  const double bound = *rc::gen::element(0.5, 1.0, 3.0, 7.0), more = *rc::gen::element(0.0, 0.3, 4.0);
+  tight.conditions.where.push_back(bound_constraint(expression("IAE_d"), bound));
+  loose.conditions.where.push_back(bound_constraint(expression("IAE_d"), bound + more));
+  const Answer few = ask(drawn.source, tight), many = ask(drawn.source, loose);
+  RC_ASSERT(many.admissible >= few.admissible);
+  if (few.top.empty()) return;
+  RC_ASSERT(!many.top.empty());
+  RC_ASSERT(many.top[0].objective <= few.top[0].objective);
+}
+
+}  // namespace
+}  // namespace portrait
