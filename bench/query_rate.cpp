@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -19,6 +20,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "portraits/query/query.h"
@@ -151,16 +153,43 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// The output of Python running a script on one file, without a shell between; its end is ended().
+class PythonRun {
+ public:
+  PythonRun(const std::string& script, const std::string& file) {
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("no pipe to Python");
+    child_ = fork();
+    if (child_ == 0) {
+      dup2(ends[1], STDOUT_FILENO);
+      execl("/usr/bin/python3", "python3", script.c_str(), file.c_str(), static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    close(ends[1]);
+    output_ = fdopen(ends[0], "r");
+  }
+  ~PythonRun() { std::fclose(output_); }
+  PythonRun(const PythonRun&) = delete;
+  PythonRun& operator=(const PythonRun&) = delete;
+
+  std::FILE* output() const { return output_; }
+  bool ended_well() const {
+    int status = 0;
+    return waitpid(child_, &status, 0) == child_ && status == 0;
+  }
+
+ private:
+  pid_t child_ = -1;
+  std::FILE* output_ = nullptr;
+};
+
 /// Seconds that numpy takes, as the script says; nothing without Debian's Python.
 std::optional<double> numpy_seconds(const std::filesystem::path& path, const Answer& answer) {
-  const std::string command =
-      fmt::format("/usr/bin/python3 {}/bench/query_rate_numpy.py '{}'", PORTRAIT_SOURCE_DIR, path.string());
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return std::nullopt;
+  const PythonRun python(fmt::format("{}/bench/query_rate_numpy.py", PORTRAIT_SOURCE_DIR), path.string());
   double seconds = 0, objective = 0;
   unsigned long long admissible = 0;
-  const int read = std::fscanf(pipe, "%lf %llu %lf", &seconds, &admissible, &objective);
-  if (pclose(pipe) != 0 || read != 3) return std::nullopt;
+  const int read = std::fscanf(python.output(), "%lf %llu %lf", &seconds, &admissible, &objective);
+  if (!python.ended_well() || read != 3) return std::nullopt;
   if (admissible != answer.admissible || objective != answer.top.at(0).objective)
     throw std::runtime_error("numpy gives another answer");
   return seconds;

@@ -309,7 +309,7 @@ int best(const QueryArguments& a, const QueryRequest& request) {
     return kNoneAdmissible;
   }
   if (!a.json && !a.csv) print_as_table(asked);
-  if (rules && !a.json && !a.csv) print_text(rules_text(portrait.grid(), question, *rules));
+  if (rules && !a.json && !a.csv) print_text(rules_text(request.grid(), question, *rules));
   return kDone;
 }
 
