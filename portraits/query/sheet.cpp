@@ -102,9 +102,10 @@ void TilePage::open(std::uint64_t tile) {
 }
 
 const std::vector<Status>& TilePage::statuses() {
-  if (!statuses_there_) source_.read_statuses(range_.first, range_.count, statuses_);
-  statuses_there_ = true;
+  if (statuses_there_) return statuses_;
+  source_.read_statuses(range_.first, range_.count, statuses_);
   for (const Status status : statuses_) PORTRAIT_CHECK(status <= Status::unstable);
+  statuses_there_ = true;
   return statuses_;
 }
 
