@@ -1,4 +1,4 @@
-/// portrait plot map, front: what a whole portrait looks like.
+/// portrait plot map: a plane of a portrait.
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,12 @@
 #include "portraits/query/query_units.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
-#include "tools/pictures/front.h"
 #include "tools/pictures/stability_limit.h"
 #include "tools/pictures/text.h"
 #include "tools/plot_arguments.h"
 #include "tools/plot_verb.h"
+#include "tools/portrait_pictures.h"
+#include "tools/shown_portrait.h"
 
 namespace portrait::tools {
 namespace {
@@ -32,33 +33,7 @@ A plane of a portrait as filled contours of an expression, with the admissible r
 --where and the optimum of --minimize. Axes that are not drawn are held at --at, else where
 the optimum lies, else in their middle.)";
 
-constexpr const char* kFrontHelp =
-    R"(Example:
-  portrait plot front huba.h5 --x Ms --y 'IAE_w + IAE_d' --where 'Ms <= 3' -o front.svg
-
-Two expressions against each other, both better when smaller: the settings, and the Pareto
-front of those that meet --where. --setting marks others, measured on the spot.)";
-
-struct MapArguments : PlotArguments {
-  std::string x, y, colour, range;
-  int levels = 12;
-  bool stability = false;
-};
-
-/// A portrait as it is drawn: in real units when a plant was given.
-struct Shown {
-  explicit Shown(const PlotArguments& a)
-      : portrait(a.file), plant(plant_argument(a.plant, portrait.grid().family.plant).real) {
-    require_fits(units(), portrait.grid());
-  }
-  const Grid& grid() const { return portrait.grid(); }
-  QueryUnits units() const { return {plant, {}}; }
-
-  PortraitReader portrait;
-  std::optional<RealPlant> plant;
-};
-
-std::optional<Found> optimum(const PlotArguments& a, const Shown& shown) {
+std::optional<Found> optimum(const PlotArguments& a, const ShownPortrait& shown) {
   if (a.minimize.empty()) return std::nullopt;
   const Answer answer = ask(shown.portrait, question_argument(a, shown.grid()));
   if (answer.top.empty()) return std::nullopt;
@@ -95,7 +70,7 @@ void hold(const Grid& grid, const std::string& text, std::vector<std::uint64_t>&
   held[k] = *index;
 }
 
-std::vector<std::uint64_t> held_indices(const MapArguments& a, const Shown& shown,
+std::vector<std::uint64_t> held_indices(const MapArguments& a, const ShownPortrait& shown,
                                         const std::optional<Found>& best) {
   const Grid& grid = shown.grid();
   std::vector<std::uint64_t> held;
@@ -103,7 +78,7 @@ std::vector<std::uint64_t> held_indices(const MapArguments& a, const Shown& show
     held = coordinates(grid, best->number);
   else
     for (const Axis& axis : grid.axes) held.push_back(axis.size() / 2);
-  if (const auto tau_1 = slice_of(shown.units(), grid))
+  if (const auto tau_1 = slice_of(shown.units, grid))
     held[axis_index(grid, Parameter::tau_1)] =
         *index_of_value(grid.axes[axis_index(grid, Parameter::tau_1)].values(), *tau_1);
   for (const std::string& text : a.at) hold(grid, text, held);
@@ -177,8 +152,10 @@ void add_stability(pictures::Map& map, const Grid& grid, Parameter x, Parameter 
   map.stability = pictures::stability_limit(plane, stable);
 }
 
-int map(const MapArguments& a, const Invocation& invocation) {
-  const Shown shown(a);
+}  // namespace
+
+PortraitPicture map_picture(const MapArguments& a) {
+  const ShownPortrait shown(a.file, a.plant);
   const Grid& grid = shown.grid();
   const Parameter x = axis_argument("--x", a.x, grid, other_than(grid, a.y));
   const Parameter y = axis_argument("--y", a.y, grid, other_than(grid, std::string(to_string(x))));
@@ -187,9 +164,9 @@ int map(const MapArguments& a, const Invocation& invocation) {
   if (!a.where.empty() && a.minimize.empty()) throw InputError("--where needs --minimize");
   const auto best = optimum(a, shown);
   const auto held = held_indices(a, shown, best);
-  const CrossSection section(shown.portrait, shown.units(), x, y, held);
+  const CrossSection section(shown.portrait, shown.units, x, y, held);
   const Expression colour = parse_expression({"--colour", a.colour.empty() ? a.minimize : a.colour});
-  require_available(colour, grid, shown.plant.has_value());
+  require_available(colour, grid, shown.has_plant());
 
   pictures::Map picture;
   picture.field = field_of(section, section.values(colour));
@@ -203,7 +180,7 @@ int map(const MapArguments& a, const Invocation& invocation) {
                       : a.title;
   picture.x_label = pictures::label(x, grid.family.plant);
   picture.y_label = pictures::label(y, grid.family.plant);
-  picture.z_label = pictures::label(colour, shown.plant.has_value());
+  picture.z_label = pictures::label(colour, shown.has_plant());
   if (!a.minimize.empty()) add_admissible(picture, section, question_argument(a, grid));
   if (a.stability) add_stability(picture, grid, x, y, held);
   if (best && in_plane(grid, best->number, x, y, held))
@@ -213,12 +190,17 @@ int map(const MapArguments& a, const Invocation& invocation) {
     const auto named = named_loop(text, grid.family, fixed_setting(grid));
     picture.marks.push_back({place(named.loop.setting, x, y), named.label});
   }
-  pictures::draw(pictures::script(picture), a.output, about(picture.title, invocation.command_line));
-  if (!a.minimize.empty() && !best) {
-    print_message("no setting is admissible; drawn without optimum");
-    return kNoneAdmissible;
-  }
-  return kDone;
+  return {picture.title, pictures::script(picture), a.minimize.empty() || best.has_value()};
+}
+
+namespace {
+
+int map(const MapArguments& a, const Invocation& invocation) {
+  const PortraitPicture picture = map_picture(a);
+  pictures::draw(picture.script, a.output, about(picture.title, invocation.command_line));
+  if (picture.complete) return kDone;
+  print_message("no setting is admissible; drawn without optimum");
+  return kNoneAdmissible;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace portrait::tools {
 
-// plot_portrait.cpp: of a portrait
+// plot_portrait.cpp, plot_front.cpp: of a portrait
 void add_plot_map(CLI::App& plot, Invocation& invocation);
 void add_plot_front(CLI::App& plot, Invocation& invocation);
 // plot_loops.cpp: of single loops

@@ -112,6 +112,9 @@ int run(int argc, char** argv) {
   add_plot(app, invocation);
   add_tune(app, invocation);
   add_reproduce(app, invocation);
+  add_serve(app, invocation);
+  add_report(app, invocation);
+  add_shell_verbs(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -30,5 +30,9 @@ void add_simulate(CLI::App& app, Invocation& invocation);
 void add_plot(CLI::App& app, Invocation& invocation);
 void add_reproduce(CLI::App& app, Invocation& invocation);
 void add_tune(CLI::App& app, Invocation& invocation);
+void add_serve(CLI::App& app, Invocation& invocation);
+void add_report(CLI::App& app, Invocation& invocation);
+/// completion and man.
+void add_shell_verbs(CLI::App& app, Invocation& invocation);
 
 }  // namespace portrait::tools

@@ -4,9 +4,13 @@
 build_packages=(
   g++ cmake ninja-build pkgconf            # compiler and build
   libeigen3-dev libhdf5-dev libfmt-dev libxxhash-dev zlib1g-dev
-  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
+  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libcpp-httplib-dev
 )
 picture_packages=(gnuplot-nox)
+# The page of `portrait serve` and its tests; nodejs from elsewhere, which brings its own npm, is left alone.
+page_packages=()
+command -v npm >/dev/null || page_packages+=(nodejs npm)
+command -v chromium >/dev/null || page_packages+=(chromium)
 test_packages=(
   libgtest-dev librapidcheck-dev           # unit and property tests
   libbenchmark-dev                         # benchmarks, each of which a test runs once

@@ -89,6 +89,27 @@ class Map(Plot):
         self.assertTrue(any(t.endswith("[y Td]") for t, _, _ in plain.texts()))
         self.assertTrue(any(t.endswith("[y time]") for t, _, _ in scaled.texts()))
 
+    def test_front_is_not_dominated_and_lies_where_query_finds_its_ends(self):
+        figure = self.figure("front", "p.h5", "--x", "Ms", "--y", "IAE_w + IAE_d", "--where", "Ms <= 3", "--setting",
+                             "mine: kappa=0.2 delta=0.6 tau_i=8")
+        x, y = figure.axes()
+        steps = [(x.value(px), y.value(py)) for px, py in max(figure.lines(figure.plot("Pareto front")), key=len)]
+        steps = steps[2:] if len(steps) > 2 and steps[0][1] == steps[1][1] and steps[0][0] > steps[1][0] else steps
+        self.assertGreater(len(steps), 6)
+        for a, b in zip(steps, steps[1:]):
+            self.assertLessEqual(a[0], b[0] + 1e-3)
+            self.assertGreaterEqual(a[1], b[1] - 0.3)
+        fastest = self.run_program("query", "p.h5", "--minimize", "IAE_w + IAE_d", "--where", "Ms <= 3", "--json").json["optimum"]
+        calmest = self.run_program("query", "p.h5", "--minimize", "Ms", "--where", "Ms <= 3", "--json").json["optimum"]
+        self.near(steps[-1][0], fastest["measures"]["Ms"], 0.02)
+        self.near(steps[-1][1], fastest["objective"], 2)
+        self.near(steps[0][0], calmest["measures"]["Ms"], 0.02)
+        mine = self.run_program("simulate", "--plant", "dipdt", "--n", 0, "--kappa", 0.2, "--delta", 0.6, "--tau-i", 8, "--horizon", 60,
+                                "--json").json["measures"]
+        px, py = figure.points(figure.plot("mine"))[0]
+        self.near(x.value(px), mine["Ms"], 0.02)
+        self.near(y.value(py), mine["IAE_w"] + mine["IAE_d"], 2)
+
     def test_nothing_admissible_is_drawn_and_said(self):
         result = self.plot("map", "p.h5", "--minimize", "IAE_d", "--where", "Ms <= 1", "-o", "none.svg", code=3)
         self.assertIn("no setting is admissible", result.err)
@@ -196,7 +217,7 @@ class Loops(Plot):
         self.assert_fails(self.run_program("plot", "nyquist", "--plant", "dipdt", "--setting", "kapa=1", "-o", "a.svg"), 2,
                           '--setting: unknown parameter "kapa" (did you mean "kappa"?)')
         self.assert_fails(self.run_program("plot"), 2,
-                          "portrait plot needs to know what: map, responses, nyquist, bars, stability")
+                          "portrait plot needs to know what: map, responses, nyquist, bars, front, stability")
 
 
 if __name__ == "__main__":

@@ -70,4 +70,4 @@ class ProgramTest(unittest.TestCase):
 def main():
     global PROGRAM, SOURCES
     PROGRAM, SOURCES = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
-    unittest.main(argv=[sys.argv[0], "-v"], module="__main__")
+    unittest.main(argv=[sys.argv[0], "-v", *sys.argv[3:]], module="__main__")

@@ -29,27 +29,23 @@ std::size_t cell(double value, double low, double high, std::size_t cells) {
 
 }  // namespace
 
-Outline pareto_front(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  Outline front;
-  for (const Point& p : points)
-    if (front.empty() || p.y < front.back().y) front.push_back(p);
-  return front;
+std::vector<std::size_t> thinned_positions(const std::vector<Point>& points, std::size_t columns, std::size_t rows) {
+  if (points.empty()) return {};
+  const auto [x0, x1] = std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x; });
+  const auto [y0, y1] = std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.y < b.y; });
+  std::vector<bool> taken(columns * rows, false);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t at = cell(points[i].y, y0->y, y1->y, rows) * columns + cell(points[i].x, x0->x, x1->x, columns);
+    if (!taken[at]) kept.push_back(i);
+    taken[at] = true;
+  }
+  return kept;
 }
 
 std::vector<Point> thinned(const std::vector<Point>& points, std::size_t columns, std::size_t rows) {
-  if (points.empty()) return {};
-  const auto [x0, x1] =
-      std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x; });
-  const auto [y0, y1] =
-      std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.y < b.y; });
-  std::vector<bool> taken(columns * rows, false);
   std::vector<Point> kept;
-  for (const Point& p : points) {
-    const std::size_t at = cell(p.y, y0->y, y1->y, rows) * columns + cell(p.x, x0->x, x1->x, columns);
-    if (!taken[at]) kept.push_back(p);
-    taken[at] = true;
-  }
+  for (const std::size_t i : thinned_positions(points, columns, rows)) kept.push_back(points[i]);
   return kept;
 }
 

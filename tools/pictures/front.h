@@ -19,10 +19,9 @@ struct Front {
 
 Script script(const Front& front);
 
-/// Those of the points that no other is at least as good as in both, x and y small being good; x increasing.
-Outline pareto_front(std::vector<Point> points);
-
-/// At most one point for each of columns x rows cells over the points' bounds, the first in each.
+/// Positions of at most one point for each of columns x rows cells over the points' bounds, the first in each.
+std::vector<std::size_t> thinned_positions(const std::vector<Point>& points, std::size_t columns, std::size_t rows);
+/// The points there.
 std::vector<Point> thinned(const std::vector<Point>& points, std::size_t columns, std::size_t rows);
 
 }  // namespace portrait::pictures

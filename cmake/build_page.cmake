@@ -1,0 +1,78 @@
+# Builds web/ with npm in the build folder and writes what comes out as a C++ source.
+#   cmake -DNPM=npm -DSOURCE=web -DBUILT=folder -DASSETS=page_assets.cpp -P build_page.cmake
+# A page that cannot be built is not an error: the source then says why, and BUILT/done is not touched.
+
+set(head "#include \"tools/page/assets.h\"\n\nnamespace portrait::page {\n\n")
+
+function(write_if_changed text)
+  if(EXISTS ${ASSETS})
+    file(READ ${ASSETS} before)
+    if(before STREQUAL text)
+      return()
+    endif()
+  endif()
+  file(WRITE ${ASSETS} "${text}")
+endfunction()
+
+function(give_up why)
+  message(WARNING "The page of `portrait serve` is left out: ${why}")
+  write_if_changed("${head}const std::vector<Asset>& assets() {\n  static const std::vector<Asset> none;\n  return none;\n}\n\nstd::string_view why_no_assets() { return R\"why(${why})why\"; }\n\n}  // namespace portrait::page\n")
+endfunction()
+
+function(run_npm result)
+  execute_process(COMMAND ${NPM} ${ARGN} WORKING_DIRECTORY ${BUILT} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  file(APPEND ${BUILT}/npm.log "${out}")
+  set(${result} ${code} PARENT_SCOPE)
+endfunction()
+
+if(NOT NPM)
+  give_up("npm was not found when it was built (Debian: apt-get install npm)")
+  return()
+endif()
+
+file(REMOVE ${BUILT}/npm.log)
+file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json ${SOURCE}/tsconfig.json ${SOURCE}/.npmrc ${SOURCE}/src
+     DESTINATION ${BUILT})
+# The packages are fetched again only when the list of them changed.
+file(SHA256 ${SOURCE}/package-lock.json wanted)
+set(have "")
+if(EXISTS ${BUILT}/node_modules/.lock-digest)
+  file(READ ${BUILT}/node_modules/.lock-digest have)
+endif()
+if(NOT have STREQUAL wanted)
+  run_npm(code ci --no-audit --no-fund --fetch-retries=1)
+  if(NOT code EQUAL 0)
+    give_up("npm could not fetch its packages when it was built (npm.log in the build folder says why)")
+    return()
+  endif()
+  file(WRITE ${BUILT}/node_modules/.lock-digest ${wanted})
+endif()
+run_npm(code run --silent build)
+if(NOT code EQUAL 0)
+  file(READ ${BUILT}/npm.log log)
+  message(FATAL_ERROR "The page has an error:\n${log}")
+endif()
+
+# Bytes as a string of hexadecimal escapes would be slow to compile; an array of numbers is not.
+set(text "${head}namespace {\n\n")
+set(list "")
+set(number 0)
+foreach(entry "/>index.html>text/html@ charset=utf-8" "/page.js>page.js>text/javascript@ charset=utf-8"
+        "/page.css>page.css>text/css@ charset=utf-8" "/icon.svg>icon.svg>image/svg+xml")
+  string(REPLACE ">" ";" parts "${entry}")
+  list(GET parts 0 path)
+  list(GET parts 1 file)
+  list(GET parts 2 type)
+  string(REPLACE "@" ";" type "${type}")
+  if(NOT EXISTS ${BUILT}/dist/${file})
+    message(FATAL_ERROR "The page's build left no dist/${file}")
+  endif()
+  file(READ ${BUILT}/dist/${file} bytes HEX)
+  string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+  string(APPEND text "constexpr unsigned char kFile${number}[] = {${bytes}};\n")
+  string(APPEND list "      {\"${path}\", \"${type}\", {reinterpret_cast<const char*>(kFile${number}), sizeof kFile${number}}},\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+string(APPEND text "\n}  // namespace\n\nconst std::vector<Asset>& assets() {\n  static const std::vector<Asset> all = {\n${list}  };\n  return all;\n}\n\nstd::string_view why_no_assets() { return {}; }\n\n}  // namespace portrait::page\n")
+write_if_changed("${text}")
+file(TOUCH ${BUILT}/done)
