@@ -15,8 +15,8 @@ from pathlib import Path
 
 # A file may include its own folder and those before it.
 ORDER = ["engine/base", "engine/measures", "engine/loop", "engine/kernel", "engine/isa", "engine/reference", "engine/sweep",
-         "engine/records", "engine/rules", "grids", "portraits", "portraits/query", "reproduce", "tools/pictures", "tools", "bench"]
-         "engine/rules", "grids", "portraits", "portraits/query", "tools/pictures", "tools/page", "tools", "bench"]
+         "engine/records", "engine/rules", "grids", "portraits", "portraits/query", "reproduce", "tools/pictures", "tools/page", "tools",
+         "bench"]
 # Where sources are looked for; one in a folder without a place in the order is a finding.
 TOP_FOLDERS = ["engine", "grids", "portraits", "reproduce", "tools", "bench"]
 SUFFIXES = {".h", ".hpp", ".c", ".cc", ".cpp"}
