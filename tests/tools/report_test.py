@@ -28,7 +28,7 @@ class Report(ProgramTest):
         self.assertEqual(len(images), 4)
         for image in images:
             self.assertTrue(xml.fromstring(base64.b64decode(image)).tag.endswith("svg"))
-        self.assertNotRegex(re.sub(r"data:[^\"]*", "", page), r"(src|href)=|https?://|<script")
+        self.assertNotRegex(re.sub(r"data:[^\"]*", "", page), r"(src|href)=\"[^\"]|https?://|<script")
         self.assertIn("portrait query small.h5 --minimize 'IAE_w + IAE_d' --where 'Ms <= 4' --plant K=2,Td=0.5", text)
         self.assertIn("history   ", text)
 
