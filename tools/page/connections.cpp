@@ -120,6 +120,8 @@ void ConnectionThreads::shutdown() {
 LoopbackServer::LoopbackServer() {
   new_task_queue = [this] { return new ConnectionThreads(open_); };
   set_socket_options(reuse_address);
+  // Head and body are two packets: Nagle's algorithm would keep the second until the first is acknowledged, some 40 ms.
+  set_tcp_nodelay(true);
   set_payload_max_length(kMaxBody);
   set_pre_routing_handler([this](const httplib::Request& q, httplib::Response& a) { return admit(q, a); });
 }
