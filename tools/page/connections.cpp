@@ -35,6 +35,12 @@ int body_fault(const httplib::Request& request) {
   return 0;
 }
 
+/// Something came on it that nobody has read yet: this client is not one that says nothing.
+bool has_spoken(int socket) {
+  char byte = 0;
+  return ::recv(socket, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0;
+}
+
 void reuse_address(socket_t socket) {
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -63,7 +69,9 @@ bool OpenConnections::end_longest_waiting() {
   const std::lock_guard lock(mutex_);
   auto longest = open_.end();
   for (auto it = open_.begin(); it != open_.end(); ++it)
-    if (it->second.waiting && (longest == open_.end() || it->second.since < longest->second.since)) longest = it;
+    if (it->second.waiting && (longest == open_.end() || it->second.since < longest->second.since) &&
+        !has_spoken(it->first))
+      longest = it;
   if (longest == open_.end()) return false;
   ::shutdown(longest->first, SHUT_RDWR);
   longest->second.waiting = false;
