@@ -87,7 +87,7 @@ class March {
       if (any(lower.open)) step_down(lower);
     }
     given_up = given_up | upper.open | lower.open;
-    narrow_down();
+    narrow_down(all_lanes());
   }
 
  private:
@@ -290,7 +290,8 @@ class March {
                             mul_sub_from(Lanes(2.0) * at_b.slope, b - guess, at_b.square));
     const Mask hopeful = but_not(mask, least > (inverted ? T_seen_ : S_seen_));
     Bracket& waiting = inverted ? T_dip_ : S_dip_;
-    if (any(hopeful & waiting.here)) narrow_down();
+    const Mask twice = hopeful & waiting.here;
+    if (any(twice)) narrow_down(twice);
     waiting.set(hopeful, a, b, guess);
   }
 
@@ -305,16 +306,18 @@ class March {
     // Im L/|L| is nearly straight.
     const Lanes at_a = a.L.im * sqrt(b.square), at_b = b.L.im * sqrt(a.square);
     Bracket& waiting = above ? above_ : below_;
-    if (any(mask & waiting.here)) narrow_down();
+    const Mask twice = mask & waiting.here;
+    if (any(twice)) narrow_down(twice);
     waiting.set(mask, a.omega, b.omega, a.omega + (b.omega - a.omega) * at_a / (at_a - at_b));
     waiting.rises = select(mask, a.L.im < Lanes(0.0), waiting.rises);
     if (above) above_seen_ = select(mask, max(above_seen_, min(a.square, b.square)), above_seen_);
   }
 
-  /// All brackets side by side, to hide what each waits for.
-  __attribute__((noinline)) void narrow_down() {
-    Nearest S_dip(S_dip_, false), T_dip(T_dip_, true);
-    Crossing over(above_), under(below_);
+  /// All brackets of these lanes side by side, to hide what each waits for. Other lanes go on waiting: what is known of a
+  /// lane decides its steps, and would make its last bits depend on its neighbours.
+  __attribute__((noinline)) void narrow_down(Mask lanes) {
+    Nearest S_dip(S_dip_.within(lanes), false), T_dip(T_dip_.within(lanes), true);
+    Crossing over(above_.within(lanes)), under(below_.within(lanes));
     for (int i = 0; i < kMostNarrowings && any(S_dip.open | T_dip.open | over.open | under.open); ++i) {
       if (any(S_dip.open)) S_dip.step(loop_);
       if (any(T_dip.open)) T_dip.step(loop_);
@@ -322,12 +325,12 @@ class March {
       if (any(under.open)) under.step(loop_);
     }
     given_up = given_up | S_dip.open | T_dip.open | over.open | under.open;
-    S.offer(S_dip.square, S_dip.place, S_dip_.here);
-    T.offer(T_dip.square, T_dip.place, T_dip_.here);
-    gain_above = select(above_.here, max(gain_above, over.gain), gain_above);
-    gain_below = select(below_.here, min(gain_below, under.gain), gain_below);
+    S.offer(S_dip.square, S_dip.place, S_dip_.here & lanes);
+    T.offer(T_dip.square, T_dip.place, T_dip_.here & lanes);
+    gain_above = select(above_.here & lanes, max(gain_above, over.gain), gain_above);
+    gain_below = select(below_.here & lanes, min(gain_below, under.gain), gain_below);
     S_seen_ = min(S_seen_, S.square), T_seen_ = min(T_seen_, T.square);
-    S_dip_.here = T_dip_.here = above_.here = below_.here = Mask::from(0);
+    S_dip_.forget(lanes), T_dip_.forget(lanes), above_.forget(lanes), below_.forget(lanes);
   }
 
   const OpenLoopLanes& loop_;

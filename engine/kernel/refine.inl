@@ -17,6 +17,13 @@ struct Bracket {
     low = select(mask, from, low), high = select(mask, to, high), guess = select(mask, at, guess);
     here = here | mask;
   }
+  void forget(Mask lanes) { here = but_not(here, lanes); }
+  /// The same for these lanes alone.
+  Bracket within(Mask lanes) const {
+    Bracket part = *this;
+    part.here = here & lanes;
+    return part;
+  }
 };
 
 /// X = L or 1/L, and its first three derivatives.

@@ -117,6 +117,20 @@ TEST_P(LaneMargins, TheStabilityLimitIsExact) {
   EXPECT_GT(with_a_stable_side, 10'000);
 }
 
+void expect_same_alone(const kernel::Implementation& implementation, const LoopFamily& family,
+                       const std::vector<Setting>& settings) {
+  std::vector<kernel::LoopMargins> together(settings.size());
+  kernel::find_margins(implementation, family, settings, together);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    kernel::LoopMargins alone;
+    kernel::find_margins(implementation, family, {&settings[i], 1}, {&alone, 1});
+    ASSERT_EQ(alone.stable, together[i].stable);
+    if (!alone.stable) continue;
+    for (const Measure m : kernel::kMarginMeasures)
+      EXPECT_EQ(alone.measures[m], together[i].measures[m]) << to_string(m) << ": " << simulate_command({family, settings[i]});
+  }
+}
+
 /// A setting's bits do not depend on what stands beside it.
 TEST_P(LaneMargins, NeighboursDoNotMatter) {
   oracle::Random random(9);
@@ -125,19 +139,23 @@ TEST_P(LaneMargins, NeighboursDoNotMatter) {
                                   {Plant::fotd, 2, Prefilter::none},
                                   {Plant::ipdt, 4, Prefilter::none}}) {
     std::vector<Setting> settings;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 2000; ++i) {
       settings.push_back(oracle::random_controller(random, family.plant, random.log_uniform(0.1, 10)));
       settings.back().tau_f = random.log_uniform(0.01, 1);
     }
-    std::vector<kernel::LoopMargins> together(settings.size());
-    kernel::find_margins(*GetParam(), family, settings, together);
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-      const auto alone = margins_of({family, settings[i]});
-      ASSERT_EQ(alone.stable, together[i].stable);
-      if (!alone.stable) continue;
-      for (const Measure m : kernel::kMarginMeasures) EXPECT_EQ(alone.measures[m], together[i].measures[m]);
-    }
+    expect_same_alone(*GetParam(), family, settings);
   }
+}
+
+/// A grid whose neighbours have their crossovers at different steps of the march.
+TEST_P(LaneMargins, NeighboursOnAGridDoNotMatter) {
+  std::vector<Setting> settings;
+  for (int i = 0; i <= 80; ++i)
+    for (int k = 0; k <= 40; ++k)
+      for (const double tau_i : {6.0, 8.0, 10.0, 14.0, 20.0})
+        for (const double tau_f : {0.05, 0.1})
+          settings.push_back({.kappa = 0.05 + 0.00375 * i, .tau_i = tau_i, .delta = 0.35 + 0.0175 * k, .tau_f = tau_f});
+  expect_same_alone(*GetParam(), {Plant::dipdt, 1, Prefilter::full}, settings);
 }
 
 }  // namespace
