@@ -1,6 +1,5 @@
 #include "tools/sweep_to_file.h"
 
-#include <array>
 #include <filesystem>
 #include <memory>
 
@@ -21,19 +20,28 @@ namespace {
 
 /// How many settings came out how.
 struct Tally {
-  std::array<std::uint64_t, kStatusNames.size()> count{};
+  StatusCounts count{};
 
-  void add(const MeasureColumns& columns) {
-    for (const Status status : columns.status) ++count[static_cast<std::size_t>(status)];
+  void add(const StatusCounts& of_tile) {
+    for (std::size_t code = 0; code < count.size(); ++code) count[code] += of_tile[code];
   }
   std::uint64_t operator[](Status status) const { return count[static_cast<std::size_t>(status)]; }
 };
 
-std::uint64_t settings_in_tiles(const Grid& grid, const std::vector<std::uint64_t>& tiles) {
-  const Tiling tiling(grid);
-  std::uint64_t count = 0;
-  for (const std::uint64_t tile : tiles) count += tiling.box(tile).size();
-  return count;
+/// Settings of these tiles, and how many of them an earlier portrait has.
+struct Work {
+  std::uint64_t settings = 0, reused = 0;
+  std::uint64_t to_measure() const { return settings - reused; }
+};
+
+Work work_in(const Tiling& tiling, const std::vector<std::uint64_t>& tiles, const EarlierPortrait* earlier) {
+  Work work;
+  for (const std::uint64_t tile : tiles) {
+    const Box box = tiling.box(tile);
+    work.settings += box.size();
+    if (earlier != nullptr) work.reused += earlier->reused_in(box);
+  }
+  return work;
 }
 
 std::string resume_command(const std::string& command_line) {
@@ -44,12 +52,13 @@ std::string resume_command(const std::string& command_line) {
 // ---------------------------------------------------------------- what is said in the end
 
 int report(const SweepArguments& a, const Grid& grid, const Shard& shard, const SweepOutcome& outcome,
-           const Tally& tally) {
+           const Tally& tally, const Work& work) {
   const double rate = outcome.seconds > 0 ? static_cast<double>(outcome.settings_measured) / outcome.seconds : 0;
   const bool whole = shard.count == 1;
   if (a.json) {
     Json json = {{"settings", setting_count(grid)},
                  {"settings_measured", outcome.settings_measured},
+                 {"settings_reused", work.reused},
                  {"settled", tally[Status::settled]},
                  {"not_settled", tally[Status::not_settled]},
                  {"unstable", tally[Status::unstable]},
@@ -67,6 +76,7 @@ int report(const SweepArguments& a, const Grid& grid, const Shard& shard, const 
   print_message(fmt::format("{} settings in {} on {} threads, {} settings/s", grouped(outcome.settings_measured),
                             duration_text(outcome.seconds), outcome.threads,
                             grouped(static_cast<std::uint64_t>(rate))));
+  if (!a.extend.empty()) print_message(fmt::format("{} settings taken from {}", grouped(work.reused), a.extend));
   print_message(fmt::format("{} settled, {} not settled at the horizon, {} unstable",
                             grouped(tally[Status::settled]), grouped(tally[Status::not_settled]),
                             grouped(tally[Status::unstable])));
@@ -116,6 +126,18 @@ bool is_done(const std::filesystem::path& output, const Grid& grid) {
 
 // ---------------------------------------------------------------- the run
 
+/// The settings of a tile that are to measure.
+std::vector<Setting> settings_of(const Grid& grid, const Box& box, const EarlierPortrait* earlier) {
+  return earlier != nullptr ? earlier->missing_in(box) : settings_in(grid, box);
+}
+
+void report_damage(const EarlierPortrait* earlier) {
+  if (earlier == nullptr || earlier->measured_again() == 0) return;
+  for (const std::string& damage : earlier->damage()) print_message(damage);
+  print_message(fmt::format("{} settings were measured again in place of what is damaged",
+                            grouped(earlier->measured_again())));
+}
+
 /// What is not about to become a portrait is stored, whatever stopped it.
 SweepOutcome swept(const SweepJob& job, RunWriter& run, const Shard& shard) try {
   const SweepOutcome outcome = sweep(job);
@@ -131,7 +153,7 @@ SweepOutcome swept(const SweepJob& job, RunWriter& run, const Shard& shard) try 
 }  // namespace
 
 int sweep_to_file(const SweepArguments& a, const std::string& command_line, const Grid& grid, const Shard& shard,
-                  int threads) {
+                  int threads, EarlierPortrait* earlier) {
   const std::filesystem::path output(a.output);
   const Existing existing = a.force ? Existing::replace : Existing::refuse;
   if (a.resume && !a.force && is_done(output, grid)) {
@@ -149,22 +171,28 @@ int sweep_to_file(const SweepArguments& a, const std::string& command_line, cons
   const Tiling tiling(grid);
   SweepJob job = sweep_job(grid, tiling, threads);
   job.tile_count = run.tiles_to_do().size();
-  job.settings_of = [&](std::uint64_t i) { return settings_in(grid, tiling.box(run.tiles_to_do()[i])); };
-  Progress progress(settings_in_tiles(grid, run.tiles_to_do()), Progress::usual_style(a.quiet));
-  job.prepare = [&](std::uint64_t i, const MeasureColumns& columns) -> StoreStep {
+  const auto box = [&](std::uint64_t i) { return tiling.box(run.tiles_to_do()[i]); };
+  job.settings_of = [&](std::uint64_t i) { return settings_of(grid, box(i), earlier); };
+  const Work work = work_in(tiling, run.tiles_to_do(), earlier);
+  Progress progress(work.to_measure(), Progress::usual_style(a.quiet));
+  const auto store = [&](std::uint64_t i, const MeasureColumns& columns) -> StoreStep {
     return [&, encoded = std::make_shared<EncodedTile>(run.encode(run.tiles_to_do()[i], columns))] {
       run.write(*encoded);
-      tally.add(columns);
+      tally.add(status_counts_of(encoded->status.values()));
     };
+  };
+  job.prepare = [&](std::uint64_t i, const MeasureColumns& columns) {
+    return earlier != nullptr ? store(i, earlier->completed(box(i), columns)) : store(i, columns);
   };
   job.progress = [&](std::uint64_t done) { progress.update(done); };
   job.stop = &interrupt.requested();
 
   const SweepOutcome outcome = swept(job, run, shard);
   progress.finish();
+  report_damage(earlier);
   if (!outcome.complete) return stopped(run, command_line, grid);
   if (shard.count == 1) run.finish({.wall_seconds = outcome.seconds, .threads = outcome.threads}, existing);
-  return report(a, grid, shard, outcome, tally);
+  return report(a, grid, shard, outcome, tally, work);
 }
 
 }  // namespace portrait::tools

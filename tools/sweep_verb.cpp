@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "tools/exit_codes.h"
 #include "tools/output.h"
 #include "tools/progress.h"
+#include "tools/run_state.h"
 #include "tools/shard_argument.h"
 #include "tools/sweep_to_file.h"
 #include "tools/verbs.h"
@@ -23,12 +25,15 @@ namespace {
 constexpr const char* kHelp =
     R"(Example:
   portrait sweep grids/catalog/huba2022-43.toml -o huba.h5
+  portrait sweep finer.toml --extend huba.h5 -o finer.h5
 
 Simulates every setting of a grid file (its format: grids/README.md) and stores the measures
 in a portrait. The file appears under its name only when it is complete and checked. Until then
 the sweep works in FILE.h5.run: stopped by Ctrl-C, by a signal of a cluster or by anything worse,
-it goes on with --resume. A grid for many machines is cut with --shard I/N; in an array of Slurm,
-under srun and under mpirun each process takes its own shard by itself. docs/cluster.md says more.)";
+it goes on with --resume. With --extend only settings that an earlier portrait lacks are
+simulated; the result is the same to the bit. A grid for many machines is cut with --shard I/N;
+in an array of Slurm, under srun and under mpirun each process takes its own shard by itself.
+docs/cluster.md says more.)";
 
 // ---------------------------------------------------------------- dry run
 
@@ -64,32 +69,47 @@ std::string size_text(double bytes) {
   return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
-int dry_run(const SweepArguments& a, const Grid& grid, const Tiling& tiling, int threads) {
-  const std::uint64_t settings = setting_count(grid);
-  const double seconds = seconds_a_setting(grid) * static_cast<double>(settings) / threads;
+int dry_run(const SweepArguments& a, const Grid& grid, const Tiling& tiling, int threads,
+            const EarlierPortrait* earlier) {
+  const std::uint64_t settings = setting_count(grid), reused = earlier != nullptr ? earlier->reused() : 0;
+  const double seconds = seconds_a_setting(grid) * static_cast<double>(settings - reused) / threads;
   if (a.json) {
     print_json({{"dry_run", true},
                 {"settings", settings},
+                {"settings_reused", reused},
                 {"tiles", tiling.tile_count()},
                 {"threads", threads},
                 {"estimated_seconds", seconds},
                 {"largest_bytes", bytes_of(grid)}});
     return kDone;
   }
-  print_text(fmt::format("{} settings in {} tiles, {} measures each\nabout {} on {} threads, at most {} on disk\n",
+  const std::string taken = reused > 0 ? fmt::format("{} of them taken from {}\n", grouped(reused), a.extend) : "";
+  print_text(fmt::format("{} settings in {} tiles, {} measures each\n{}about {} on {} threads, at most {} on disk\n",
                          grouped(settings), grouped(tiling.tile_count()), grid.measures.size(),
-                         duration_text(seconds), threads, size_text(bytes_of(grid))));
+                         taken, duration_text(seconds), threads, size_text(bytes_of(grid))));
   return kDone;
+}
+
+/// The portrait that is to be extended; nothing when none is.
+std::unique_ptr<EarlierPortrait> earlier_portrait(const SweepArguments& a, const Grid& grid) {
+  if (a.extend.empty()) return nullptr;
+  if (run_folder_meant(a.extend))
+    throw InputError(fmt::format("{} is a sweep that was stopped: finish it first, with --resume", a.extend));
+  std::error_code neither_is_there;
+  if (!a.output.empty() && std::filesystem::equivalent(a.output, a.extend, neither_is_there))
+    throw InputError(fmt::format("{} stays as it is: give the larger portrait another name with -o", a.extend));
+  return std::make_unique<EarlierPortrait>(a.extend, grid, method_text(Method::kernel));
 }
 
 int run(const SweepArguments& a, const Invocation& invocation) {
   const Grid grid = read_grid(a.grid);
   const Tiling tiling(grid);
   const int threads = a.threads > 0 ? a.threads : usual_threads();
-  if (a.dry_run) return dry_run(a, grid, tiling, threads);
+  const std::unique_ptr<EarlierPortrait> earlier = earlier_portrait(a, grid);
+  if (a.dry_run) return dry_run(a, grid, tiling, threads, earlier.get());
   if (a.output.empty()) throw InputError("-o FILE.h5 is missing: where shall the portrait go?");
   const Shard shard = a.shard.empty() ? shard_from(this_environment()) : shard_argument(a.shard);
-  return sweep_to_file(a, invocation.command_line, grid, shard, threads);
+  return sweep_to_file(a, invocation.command_line, grid, shard, threads, earlier.get());
 }
 
 }  // namespace
@@ -99,6 +119,7 @@ void add_sweep(CLI::App& app, Invocation& invocation) {
   CLI::App* verb = add_verb(app, "sweep", "simulate every setting of a grid into a portrait", kHelp);
   verb->add_option("grid", a->grid, "grid file")->required();
   verb->add_option("-o,--output", a->output, "portrait file to write");
+  verb->add_option("--extend", a->extend, "an earlier portrait: settings that it has are taken from it");
   verb->add_option("--threads", a->threads, "threads (default: all)")->check(CLI::Range(1, 4096));
   verb->add_flag("--dry-run", a->dry_run, "only say how many settings, how long and how large");
   verb->add_flag("--force", a->force, "replace an existing portrait, throw a stopped sweep away");
