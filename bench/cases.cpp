@@ -81,7 +81,7 @@ Grid sweep_grid(std::uint64_t count) {
 
 std::vector<Measure> timed_measures() {
   std::vector<Measure> timed;
-  for (const Measure m : all_measures())
+  for (const Measure m : standard_measures())
     if (m != Measure::noise_gain) timed.push_back(m);
   return timed;
 }

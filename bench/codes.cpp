@@ -38,7 +38,7 @@ void run_engine(const Case& of, std::span<const Setting> settings, MeasureColumn
   std::vector<SettingMeasured> measured(kSlice);
   for (std::size_t first = 0; first < settings.size(); first += kSlice) {
     const std::size_t count = std::min(kSlice, settings.size() - first);
-    measure_settings(Method::kernel, of.grid.family, of.grid.horizon, std::nullopt, settings.subspan(first, count),
+    measure_settings(Method::kernel, of.grid.family, of.grid.horizon, {}, settings.subspan(first, count),
                      std::span(measured).first(count));
     for (std::size_t i = 0; i < count; ++i) {
       if (measured[i].method != Method::kernel)

@@ -53,7 +53,7 @@ Grid grid_of(std::uint64_t tiles) {
   std::vector<double> rows(tiles), columns(kTileSettings);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = 0.05 + 0.001 * static_cast<double>(i);
   for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = 6 + 0.01 * static_cast<double>(i);
-  const auto all = all_measures();
+  const auto all = standard_measures();
   return {.title = "store_rate",
           .family = {.plant = Plant::dipdt, .n = 1, .prefilter = Prefilter::full},
           .horizon = Horizon::fixed(51),

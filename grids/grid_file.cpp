@@ -95,7 +95,7 @@ std::optional<double> sampling_in(const Value::Table& root) {
 
 std::vector<Measure> usual_measures(bool with_noise) {
   std::vector<Measure> usual;
-  for (const Measure measure : all_measures())
+  for (const Measure measure : standard_measures())
     if (with_noise || measure != Measure::noise_gain) usual.push_back(measure);
   return usual;
 }

@@ -43,8 +43,10 @@ std::string what_differs(const PortraitReader& kept, const Grid& grid, const std
   for (const Measure measure : grid.measures)
     if (!kept.has(measure)) lacking.push_back(to_string(measure));
   if (!lacking.empty())
-    text += fmt::format("\n  measures: it lacks {} (to compute one measure of a setting takes as long as all of them: "
-                        "leave them out of the grid, or sweep it anew)", joined(lacking));
+    text += fmt::format(
+        "\n  measures: it lacks {} (to compute one measure of a setting takes as long as all of them: "
+        "leave them out of the grid, or sweep it anew)",
+        joined(lacking));
   return text;
 }
 
@@ -53,10 +55,11 @@ std::string what_differs(const PortraitReader& kept, const Grid& grid, const std
 EarlierPortrait::EarlierPortrait(const std::filesystem::path& path, const Grid& grid, const std::string& method)
     : grid_(grid), reader_(path), rows_(reader_.grid()), overlap_(grid, reader_.grid()) {
   const std::string differs = what_differs(reader_, grid, method);
-  if (!differs.empty()) throw InputError(fmt::format("{} cannot be extended to this grid:{}", path.string(), differs));
+  if (!differs.empty())
+    throw InputError(fmt::format("{} cannot be extended to this grid:{}", path.string(), differs));
   if (const auto apart = overlap_.apart())
-    throw InputError(fmt::format("{} has no setting of this grid: no value of {} is in both", path.string(),
-                                 to_string(*apart)));
+    throw InputError(
+        fmt::format("{} has no setting of this grid: no value of {} is in both", path.string(), to_string(*apart)));
 }
 
 std::vector<Setting> EarlierPortrait::missing_in(const Box& box) const {
@@ -119,7 +122,8 @@ void EarlierPortrait::take_over(const ColumnSource& reader, Run run, const Box& 
     measure(run, box, columns);
     const std::scoped_lock lock(mutex_);
     measured_again_ += run.size();
-    if (std::find(damage_.begin(), damage_.end(), error.what()) == damage_.end()) damage_.emplace_back(error.what());
+    if (std::find(damage_.begin(), damage_.end(), error.what()) == damage_.end())
+      damage_.emplace_back(error.what());
   }
 }
 
@@ -145,8 +149,8 @@ void EarlierPortrait::measure(Run run, const Box& box, MeasureColumns& columns) 
   std::vector<Setting> settings;
   for (const Wanted& wanted : run) settings.push_back(all[wanted.place]);
   std::vector<SettingMeasured> measured(settings.size());
-  measure_settings(Method::kernel, grid_.family, grid_.horizon,
-                   has(grid_.measures, Measure::noise_gain) ? grid_.sampling : std::nullopt, settings, measured);
+  measure_settings(method_for(grid_.measures), grid_.family, grid_.horizon,
+                   extras_for(grid_.measures, grid_.sampling), settings, measured);
   for (std::size_t i = 0; i < run.size(); ++i) columns.set(run[i].place, measured[i].status, measured[i].measures);
 }
 

@@ -99,8 +99,8 @@ std::vector<MeasureRow> along_cbar() {
     settings.push_back({.kappa = f.Kc, .tau_i = f.Ti});
   }
   std::vector<SettingMeasured> found(settings.size());
-  measure_settings(Method::kernel, {Plant::ipdt, 0, Prefilter::none}, Horizon::until_settled(), std::nullopt,
-                   settings, found);
+  measure_settings(Method::kernel, {Plant::ipdt, 0, Prefilter::none}, Horizon::until_settled(), {}, settings,
+                   found);
   std::vector<MeasureRow> rows;
   for (std::size_t i = 0; i < found.size(); ++i) {
     rows.push_back(found[i].measures);
@@ -181,8 +181,8 @@ Numbers table1(const PublishedTable& table) {
       settings.push_back({.kappa = f.Kc, .tau_i = f.Ti});
     }
   std::vector<SettingMeasured> found(settings.size());
-  measure_settings(Method::kernel, {Plant::ipdt, 0, Prefilter::none}, Horizon::until_settled(), std::nullopt,
-                   settings, found);
+  measure_settings(Method::kernel, {Plant::ipdt, 0, Prefilter::none}, Horizon::until_settled(), {}, settings,
+                   found);
   Numbers numbers;
   for (const PrintedRow& r : table.rows) {
     const double s_r = number_in_label(r.label, "s_r");

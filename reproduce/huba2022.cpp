@@ -79,7 +79,7 @@ Filtered filtered(PoleSet set, double m, double b_times_m, double b_dead_time = 
             {.kappa = r.kappa / (D * D), .tau_i = r.tau_i * D, .delta = r.delta / D, .tau_1 = 0, .tau_f = kTf}};
   loop.setting.b = -1 / r.p_o * b_dead_time * b_times_m;
   SettingMeasured found;
-  measure_settings(Method::kernel, loop.family, Horizon::fixed(50), std::nullopt, {&loop.setting, 1}, {&found, 1});
+  measure_settings(Method::kernel, loop.family, Horizon::fixed(50), {}, {&loop.setting, 1}, {&found, 1});
   return {found.measures[Measure::IAE_w], found.measures[Measure::IAE_d], loop.setting.delta};
 }
 
@@ -171,8 +171,7 @@ Numbers qrdp(const PublishedTable&) {
         {Plant::dipdt, 1, Prefilter::full},
         {.kappa = t.kappa, .tau_i = t.tau_i, .delta = t.delta, .tau_1 = 0, .tau_f = 1e-4, .b = b, .c = c}};
     SettingMeasured found;
-    measure_settings(Method::kernel, loop.family, Horizon::until_settled(), std::nullopt, {&loop.setting, 1},
-                     {&found, 1});
+    measure_settings(Method::kernel, loop.family, Horizon::until_settled(), {}, {&loop.setting, 1}, {&found, 1});
     IAE.push_back(found.measures[Measure::IAE_w]), IAE_d = found.measures[Measure::IAE_d];
   }
   return {row({t.kappa, t.delta, t.kappa / t.tau_i, t.tau_i, t.delta / t.kappa, t.p_o, T_o, IAE[0], IAE[1], IAE[2],
@@ -195,8 +194,7 @@ Numbers eq47(const PublishedTable&) {
       for (int i = 6; i <= 22; i += 2)
         settings.push_back({.kappa = k / 100.0, .tau_i = double(i), .delta = d / 20.0});
   std::vector<SettingMeasured> found(settings.size());
-  measure_settings(Method::kernel, {Plant::dipdt, 0, Prefilter::pi}, Horizon::fixed(80), std::nullopt, settings,
-                   found);
+  measure_settings(Method::kernel, {Plant::dipdt, 0, Prefilter::pi}, Horizon::fixed(80), {}, settings, found);
   std::array<const Setting*, 2> best{};
   std::array<double, 2> least = {kInf, kInf};
   for (std::size_t i = 0; i < settings.size(); ++i) {

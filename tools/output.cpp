@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,28 +12,26 @@
 namespace portrait::tools {
 namespace {
 
-/// The rows of the table: what is measured of y or u under both steps.
+/// The rows of the table: what is measured of y or u under the steps w, d and o.
 struct TableRow {
-  std::string_view title;
-  Measure under_w, under_d;
+  std::string_view title, stem;
 };
 
-constexpr TableRow kRows[] = {
-    {"IAE", Measure::IAE_w, Measure::IAE_d},
-    {"ISE", Measure::ISE_w, Measure::ISE_d},
-    {"ITAE", Measure::ITAE_w, Measure::ITAE_d},
-    {"ITSE", Measure::ITSE_w, Measure::ITSE_d},
-    {"TV of y", Measure::TV_yw, Measure::TV_yd},
-    {"TV0 of y", Measure::TV0_yw, Measure::TV0_yd},
-    {"TV1 of y", Measure::TV1_yw, Measure::TV1_yd},
-    {"TV2 of y", Measure::TV2_yw, Measure::TV2_yd},
-    {"TV of u", Measure::TV_uw, Measure::TV_ud},
-    {"TV0 of u", Measure::TV0_uw, Measure::TV0_ud},
-    {"TV1 of u", Measure::TV1_uw, Measure::TV1_ud},
-    {"TV2 of u", Measure::TV2_uw, Measure::TV2_ud},
-    {"largest |y|", Measure::y_max_w, Measure::y_max_d},
-    {"largest |u|", Measure::u_max_w, Measure::u_max_d},
-};
+constexpr TableRow kRows[] = {{"IAE", "IAE_"},           {"ISE", "ISE_"},           {"ITAE", "ITAE_"},
+                              {"ITSE", "ITSE_"},         {"TV of y", "TV_y"},       {"TV of u", "TV_u"},
+                              {"largest |y|", "y_max_"}, {"largest |u|", "u_max_"}, {"class of y", "DC_y"},
+                              {"class of u", "DC_u"}};
+
+/// With the rows of TV0 .. TV8 behind those of TV.
+std::vector<std::pair<std::string, std::string>> table_rows() {
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const auto& [title, stem] : kRows) {
+    rows.emplace_back(title, stem);
+    for (int m = 0; m <= 8 && stem.starts_with("TV_"); ++m)
+      rows.emplace_back(fmt::format("TV{}{}", m, title.substr(2)), fmt::format("TV{}{}", m, stem.substr(2)));
+  }
+  return rows;
+}
 
 bool contains(const std::vector<Measure>& measures, Measure wanted) {
   for (const Measure m : measures)
@@ -121,11 +120,19 @@ std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
 std::string measures_table(const MeasureRow& row, const std::vector<Measure>& measures,
                            const std::string& unit_note) {
-  std::string text = fmt::format("  {:<12} {:>14} {:>14}   {}\n", "", "setpoint", "disturbance", unit_note);
-  for (const TableRow& r : kRows) {
-    if (!contains(measures, r.under_w) && !contains(measures, r.under_d)) continue;
-    text += fmt::format("  {:<12} {:>14} {:>14}\n", r.title, cell(row, measures, r.under_w),
-                        cell(row, measures, r.under_d));
+  const bool with_output = contains(measures, Measure::IAE_o);
+  std::string text = fmt::format("  {:<12} {:>14} {:>14}{}   {}\n", "", "setpoint", "disturbance",
+                                 with_output ? fmt::format(" {:>14}", "output") : "", unit_note);
+  for (const auto& [title, stem] : table_rows()) {
+    std::string line = fmt::format("  {:<12}", title);
+    bool any = false;
+    for (const char* step : {"w", "d", "o"}) {
+      if (*step == 'o' && !with_output) continue;
+      const Measure m = *measure_named(stem + step);
+      any = any || contains(measures, m);
+      line += fmt::format(" {:>14}", cell(row, measures, m));
+    }
+    if (any) text += line + "\n";
   }
   for (const Measure m : measures)
     if (info(m).step == '-') text += fmt::format("  {:<12} {:>14}\n", to_string(m), cell(row, measures, m));

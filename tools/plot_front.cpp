@@ -40,8 +40,8 @@ pictures::Mark mark(const std::string& text, const ShownPortrait& shown, const E
   const Grid& grid = shown.grid();
   const auto named = named_loop(text, grid.family, fixed_setting(grid));
   SettingMeasured measured;
-  measure_settings(Method::kernel, grid.family, grid.horizon, grid.sampling, {&named.loop.setting, 1},
-                   {&measured, 1});
+  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid.measures, grid.sampling),
+                   {&named.loop.setting, 1}, {&measured, 1});
   for (const Measure m : all_measures()) measured.measures[m] *= factor(m, shown.units);
   const auto at = [&](const Expression& e) {
     return value_at(e, named.loop.setting, measured.measures, shown.units);

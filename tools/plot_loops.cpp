@@ -128,8 +128,7 @@ std::vector<MeasureRow> measured(const Loops& loops, const Horizon& horizon) {
   std::vector<MeasureRow> rows;
   for (const NamedLoop& named : loops.named) {
     SettingMeasured result;
-    measure_settings(Method::kernel, named.loop.family, horizon, std::nullopt, {&named.loop.setting, 1},
-                     {&result, 1});
+    measure_settings(Method::kernel, named.loop.family, horizon, {}, {&named.loop.setting, 1}, {&result, 1});
     rows.push_back(result.measures);
   }
   return rows;

@@ -95,13 +95,25 @@ Method method_of(const SimulateArguments& a) {
   return a.method.empty() ? Method::kernel : method_argument("--method", a.method);
 }
 
+/// What the kernel does not measure, by the reference.
+void add_further_measures(const Loop& loop, const Horizon& horizon, SettingMeasured& measured) {
+  SettingMeasured further;
+  measure_settings(Method::reference, loop.family, horizon, {.output_step = true}, {&loop.setting, 1},
+                   {&further, 1});
+  for (const Measure m : all_measures())
+    if (!is_standard(m)) measured.measures[m] = further.measures[m];
+}
+
 SettingMeasured measure(const SimulateArguments& a, const Loop& loop, const Horizon& horizon) {
   const Method method = method_of(a);
   const std::optional<double> sampling = sampling_argument("--sampling", a.sampling);
   SettingMeasured measured;
-  measure_settings(method, loop.family, horizon, sampling, {&loop.setting, 1}, {&measured, 1});
+  measure_settings(method, loop.family, horizon, {.sampling = sampling, .output_step = true}, {&loop.setting, 1},
+                   {&measured, 1});
   if (measured.method != method)
     print_message("note: too stiff for the kernel's panels, measured by the reference method");
+  if (measured.method == Method::kernel && measured.status != Status::unstable)
+    add_further_measures(loop, horizon, measured);
   return measured;
 }
 

@@ -66,7 +66,7 @@ int report(const SweepArguments& a, const Grid& grid, const Shard& shard, const 
                  {"settings_per_second", rate},
                  {"threads", outcome.threads},
                  {"settings_by_reference", outcome.settings_by_reference},
-                 {"method", method_text(Method::kernel)},
+                 {"method", method_text(a.method)},
                  {"file", whole ? a.output : RunFolder::of_target(a.output).path().string()}};
     if (!whole) json["shard"] = shard_text(shard);
     print_json(json);
@@ -80,7 +80,7 @@ int report(const SweepArguments& a, const Grid& grid, const Shard& shard, const 
   print_message(fmt::format("{} settled, {} not settled at the horizon, {} unstable",
                             grouped(tally[Status::settled]), grouped(tally[Status::not_settled]),
                             grouped(tally[Status::unstable])));
-  if (outcome.settings_by_reference > 0)
+  if (outcome.settings_by_reference > 0 && a.method == Method::kernel)
     print_message(
         fmt::format("{} settings, too stiff for the kernel's panels, were measured by the reference method",
                     grouped(outcome.settings_by_reference)));
@@ -88,24 +88,24 @@ int report(const SweepArguments& a, const Grid& grid, const Shard& shard, const 
     print_message(fmt::format("portrait written to {}", a.output));
   } else {
     const std::string folder = RunFolder::of_target(a.output).path().string();
-    print_message(fmt::format("shard {} is complete in {}; when all are: portrait merge {} -o {}", shard_text(shard),
-                              folder, folder, a.output));
+    print_message(fmt::format("shard {} is complete in {}; when all are: portrait merge {} -o {}",
+                              shard_text(shard), folder, folder, a.output));
   }
   return kDone;
 }
 
 int stopped(const RunWriter& run, const std::string& command_line, const Grid& grid) {
-  print_message(fmt::format("stopped with {} of {} tiles stored in {}; go on with:\n  {}", grouped(run.tiles_done()),
-                            grouped(Tiling(grid).tile_count()), run.folder().path().string(),
-                            resume_command(command_line)));
+  print_message(fmt::format("stopped with {} of {} tiles stored in {}; go on with:\n  {}",
+                            grouped(run.tiles_done()), grouped(Tiling(grid).tile_count()),
+                            run.folder().path().string(), resume_command(command_line)));
   return kStopped;
 }
 
 /// The portrait is there already, of this very run: it was killed after its last step but one, or asked for twice.
-bool is_done(const std::filesystem::path& output, const Grid& grid) {
+bool is_done(const std::filesystem::path& output, const Grid& grid, Method method) {
   if (!std::filesystem::exists(output)) return false;
   const PortraitReader portrait(output);
-  const RunManifest now = manifest_of(grid, {"", method_text(Method::kernel)});
+  const RunManifest now = manifest_of(grid, {"", method_text(method)});
   RunManifest kept = now;
   kept.grid_text = portrait.grid().text;
   kept.schema_version = portrait.facts().schema_version;
@@ -156,20 +156,23 @@ int sweep_to_file(const SweepArguments& a, const std::string& command_line, cons
                   int threads, EarlierPortrait* earlier) {
   const std::filesystem::path output(a.output);
   const Existing existing = a.force ? Existing::replace : Existing::refuse;
-  if (a.resume && !a.force && is_done(output, grid)) {
+  if (a.resume && !a.force && is_done(output, grid, a.method)) {
     if (!a.quiet) print_message(fmt::format("{} is complete already", a.output));
     return kDone;
   }
   check_target(output, existing);
   InterruptGuard interrupt;
-  const RunStart start = a.force ? RunStart::replace : a.resume || shard.count > 1 ? RunStart::resume : RunStart::fresh;
-  RunWriter run(output, grid, {command_line, method_text(Method::kernel)}, shard, start);
+  const RunStart start = a.force                       ? RunStart::replace
+                         : a.resume || shard.count > 1 ? RunStart::resume
+                                                       : RunStart::fresh;
+  RunWriter run(output, grid, {command_line, method_text(a.method)}, shard, start);
   for (const std::string& damage : run.set_aside())
     print_message(fmt::format("damaged, set aside and computed again: {}", damage));
 
   Tally tally;
   const Tiling tiling(grid);
   SweepJob job = sweep_job(grid, tiling, threads);
+  job.method = a.method;
   job.tile_count = run.tiles_to_do().size();
   const auto box = [&](std::uint64_t i) { return tiling.box(run.tiles_to_do()[i]); };
   job.settings_of = [&](std::uint64_t i) { return settings_of(grid, box(i), earlier); };

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/sweep/method.h"
 #include "grids/grid.h"
 #include "portraits/earlier_portrait.h"
 #include "portraits/run_folder.h"
@@ -11,6 +12,7 @@ namespace portrait::tools {
 
 struct SweepArguments {
   std::string grid, output, shard, extend;
+  Method method = Method::kernel;
   int threads = 0;
   bool dry_run = false, force = false, quiet = false, json = false, resume = false;
 };

@@ -11,6 +11,7 @@
 #include "engine/sweep/sweep.h"
 #include "grids/grid_file.h"
 #include "grids/tiling.h"
+#include "tools/arguments.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
 #include "tools/progress.h"
@@ -38,9 +39,10 @@ docs/cluster.md says more.)";
 // ---------------------------------------------------------------- dry run
 
 /// Seconds a setting takes on one thread: settings spread evenly over the grid, for about half a second.
-double seconds_a_setting(const Grid& grid) {
+double seconds_a_setting(const Grid& grid, Method method) {
   using Clock = std::chrono::steady_clock;
-  constexpr std::size_t kAtATime = TileQueue::kSliceSettings;  // as a sweep does
+  const std::size_t at_a_time = method == Method::kernel ? TileQueue::kSliceSettings : 1;  // as a sweep does
+  const Extras extras = extras_for(grid.measures, grid.sampling);
   const std::uint64_t count = setting_count(grid), samples = std::min<std::uint64_t>(count, 4096);
   const auto begin = Clock::now();
   std::uint64_t done = 0;
@@ -48,10 +50,10 @@ double seconds_a_setting(const Grid& grid) {
   while (done < samples && seconds < 0.5) {
     // 97 is a step through the samples in an order that visits all parts of the grid early.
     std::vector<Setting> settings;
-    for (; settings.size() < kAtATime && done < samples; ++done)
+    for (; settings.size() < at_a_time && done < samples; ++done)
       settings.push_back(setting_at(grid, count / samples * (done * 97 % samples)));
     std::vector<SettingMeasured> measured(settings.size());
-    measure_settings(Method::kernel, grid.family, grid.horizon, grid.sampling, settings, measured);
+    measure_settings(method, grid.family, grid.horizon, extras, settings, measured);
     seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   }
   return seconds / static_cast<double>(done);
@@ -72,7 +74,7 @@ std::string size_text(double bytes) {
 int dry_run(const SweepArguments& a, const Grid& grid, const Tiling& tiling, int threads,
             const EarlierPortrait* earlier) {
   const std::uint64_t settings = setting_count(grid), reused = earlier != nullptr ? earlier->reused() : 0;
-  const double seconds = seconds_a_setting(grid) * static_cast<double>(settings - reused) / threads;
+  const double seconds = seconds_a_setting(grid, a.method) * static_cast<double>(settings - reused) / threads;
   if (a.json) {
     print_json({{"dry_run", true},
                 {"settings", settings},
@@ -84,9 +86,10 @@ int dry_run(const SweepArguments& a, const Grid& grid, const Tiling& tiling, int
     return kDone;
   }
   const std::string taken = reused > 0 ? fmt::format("{} of them taken from {}\n", grouped(reused), a.extend) : "";
-  print_text(fmt::format("{} settings in {} tiles, {} measures each\n{}about {} on {} threads, at most {} on disk\n",
-                         grouped(settings), grouped(tiling.tile_count()), grid.measures.size(),
-                         taken, duration_text(seconds), threads, size_text(bytes_of(grid))));
+  print_text(
+      fmt::format("{} settings in {} tiles, {} measures each\n{}about {} on {} threads, at most {} on disk\n",
+                  grouped(settings), grouped(tiling.tile_count()), grid.measures.size(), taken,
+                  duration_text(seconds), threads, size_text(bytes_of(grid))));
   return kDone;
 }
 
@@ -98,13 +101,15 @@ std::unique_ptr<EarlierPortrait> earlier_portrait(const SweepArguments& a, const
   std::error_code neither_is_there;
   if (!a.output.empty() && std::filesystem::equivalent(a.output, a.extend, neither_is_there))
     throw InputError(fmt::format("{} stays as it is: give the larger portrait another name with -o", a.extend));
-  return std::make_unique<EarlierPortrait>(a.extend, grid, method_text(Method::kernel));
+  return std::make_unique<EarlierPortrait>(a.extend, grid, method_text(a.method));
 }
 
-int run(const SweepArguments& a, const Invocation& invocation) {
+int run(SweepArguments& a, const std::string& method, const Invocation& invocation) {
+  a.method = method_argument("--method", method);
   const Grid grid = read_grid(a.grid);
   const Tiling tiling(grid);
   const int threads = a.threads > 0 ? a.threads : usual_threads();
+  if (const auto reason = why_not_measured(a.method, grid.measures)) throw InputError(a.grid + ": " + *reason);
   const std::unique_ptr<EarlierPortrait> earlier = earlier_portrait(a, grid);
   if (a.dry_run) return dry_run(a, grid, tiling, threads, earlier.get());
   if (a.output.empty()) throw InputError("-o FILE.h5 is missing: where shall the portrait go?");
@@ -116,18 +121,20 @@ int run(const SweepArguments& a, const Invocation& invocation) {
 
 void add_sweep(CLI::App& app, Invocation& invocation) {
   auto a = std::make_shared<SweepArguments>();
+  auto method = std::make_shared<std::string>(to_string(Method::kernel));
   CLI::App* verb = add_verb(app, "sweep", "simulate every setting of a grid into a portrait", kHelp);
   verb->add_option("grid", a->grid, "grid file")->required();
   verb->add_option("-o,--output", a->output, "portrait file to write");
   verb->add_option("--extend", a->extend, "an earlier portrait: settings that it has are taken from it");
   verb->add_option("--threads", a->threads, "threads (default: all)")->check(CLI::Range(1, 4096));
+  verb->add_option("--method", *method, "kernel, or reference, slow, for every measure")->capture_default_str();
   verb->add_flag("--dry-run", a->dry_run, "only say how many settings, how long and how large");
   verb->add_flag("--force", a->force, "replace an existing portrait, throw a stopped sweep away");
   verb->add_flag("--resume", a->resume, "go on with a sweep that was stopped, or begin it");
   verb->add_option("--shard", a->shard, "I/N: compute part I of N alone (default: from Slurm or MPI, else 1/1)");
   verb->add_flag("--quiet", a->quiet, "no progress, no summary");
   verb->add_flag("--json", a->json, "the summary as one JSON object");
-  verb->callback([a, &invocation] { invocation.exit_code = run(*a, invocation); });
+  verb->callback([a, method, &invocation] { invocation.exit_code = run(*a, *method, invocation); });
 }
 
 }  // namespace portrait::tools

@@ -95,8 +95,8 @@ struct Answer {
 };
 
 std::vector<Measure> shown_measures() {
-  const auto all = all_measures();
-  return {all.begin(), all.end()};
+  const auto shown = standard_measures();
+  return {shown.begin(), shown.end()};
 }
 
 // ---------------------------------------------------------------- printing

@@ -16,6 +16,15 @@ constexpr std::string_view kTv2 =
     "total variation less that of the best shape with at most two extremes, alternating about x(inf)";
 constexpr std::string_view kMax = "largest |x(t)| from 0 to the horizon";
 
+constexpr std::string_view kTvm =
+    "total variation less that of the best shape with at most so many extremes, alternating about x(inf)";
+constexpr std::string_view kIaeOfY = "integral of |y| from 0 to the horizon";
+constexpr std::string_view kIseOfY = "integral of y^2 from 0 to the horizon";
+constexpr std::string_view kItaeOfY = "integral of t |y| from 0 to the horizon";
+constexpr std::string_view kItseOfY = "integral of t y^2 from 0 to the horizon";
+constexpr std::string_view kClass =
+    "number of extremes alternately above and below x(inf) by more than 1 % of the largest deviation from it";
+
 constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
     {"IAE_w", "integral of absolute error, setpoint step", kIae, Unit::output_time, 'w'},
     {"IAE_d", "integral of absolute error, disturbance step", kIae, Unit::output_time, 'd'},
@@ -62,6 +71,62 @@ constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
     {"noise_gain", "amplification of measurement noise",
      "RMS of u per RMS of white measurement noise held over the sampling time; inf for an ideal derivative",
      Unit::input_per_output, '-'},
+    {"TV3_yw", "deviation of y from a three-pulse shape, setpoint step", kTvm, Unit::output, 'w'},
+    {"TV4_yw", "deviation of y from a four-pulse shape, setpoint step", kTvm, Unit::output, 'w'},
+    {"TV5_yw", "deviation of y from a five-pulse shape, setpoint step", kTvm, Unit::output, 'w'},
+    {"TV6_yw", "deviation of y from a six-pulse shape, setpoint step", kTvm, Unit::output, 'w'},
+    {"TV7_yw", "deviation of y from a seven-pulse shape, setpoint step", kTvm, Unit::output, 'w'},
+    {"TV8_yw", "deviation of y from an eight-pulse shape, setpoint step", kTvm, Unit::output, 'w'},
+    {"TV3_uw", "deviation of u from a three-pulse shape, setpoint step", kTvm, Unit::input, 'w'},
+    {"TV4_uw", "deviation of u from a four-pulse shape, setpoint step", kTvm, Unit::input, 'w'},
+    {"TV5_uw", "deviation of u from a five-pulse shape, setpoint step", kTvm, Unit::input, 'w'},
+    {"TV6_uw", "deviation of u from a six-pulse shape, setpoint step", kTvm, Unit::input, 'w'},
+    {"TV7_uw", "deviation of u from a seven-pulse shape, setpoint step", kTvm, Unit::input, 'w'},
+    {"TV8_uw", "deviation of u from an eight-pulse shape, setpoint step", kTvm, Unit::input, 'w'},
+    {"TV3_yd", "deviation of y from a three-pulse shape, disturbance step", kTvm, Unit::output, 'd'},
+    {"TV4_yd", "deviation of y from a four-pulse shape, disturbance step", kTvm, Unit::output, 'd'},
+    {"TV5_yd", "deviation of y from a five-pulse shape, disturbance step", kTvm, Unit::output, 'd'},
+    {"TV6_yd", "deviation of y from a six-pulse shape, disturbance step", kTvm, Unit::output, 'd'},
+    {"TV7_yd", "deviation of y from a seven-pulse shape, disturbance step", kTvm, Unit::output, 'd'},
+    {"TV8_yd", "deviation of y from an eight-pulse shape, disturbance step", kTvm, Unit::output, 'd'},
+    {"TV3_ud", "deviation of u from a three-pulse shape, disturbance step", kTvm, Unit::input, 'd'},
+    {"TV4_ud", "deviation of u from a four-pulse shape, disturbance step", kTvm, Unit::input, 'd'},
+    {"TV5_ud", "deviation of u from a five-pulse shape, disturbance step", kTvm, Unit::input, 'd'},
+    {"TV6_ud", "deviation of u from a six-pulse shape, disturbance step", kTvm, Unit::input, 'd'},
+    {"TV7_ud", "deviation of u from a seven-pulse shape, disturbance step", kTvm, Unit::input, 'd'},
+    {"TV8_ud", "deviation of u from an eight-pulse shape, disturbance step", kTvm, Unit::input, 'd'},
+    {"IAE_o", "integral of absolute error, output step", kIaeOfY, Unit::output_time, 'o'},
+    {"ISE_o", "integral of squared error, output step", kIseOfY, Unit::output2_time, 'o'},
+    {"ITAE_o", "integral of time times absolute error, output step", kItaeOfY, Unit::output_time2, 'o'},
+    {"ITSE_o", "integral of time times squared error, output step", kItseOfY, Unit::output2_time2, 'o'},
+    {"TV_yo", "total variation of y, output step", kTv, Unit::output, 'o'},
+    {"TV0_yo", "deviation of y from monotonicity, output step", kTv0, Unit::output, 'o'},
+    {"TV1_yo", "deviation of y from a one-pulse shape, output step", kTv1, Unit::output, 'o'},
+    {"TV2_yo", "deviation of y from a two-pulse shape, output step", kTv2, Unit::output, 'o'},
+    {"TV3_yo", "deviation of y from a three-pulse shape, output step", kTvm, Unit::output, 'o'},
+    {"TV4_yo", "deviation of y from a four-pulse shape, output step", kTvm, Unit::output, 'o'},
+    {"TV5_yo", "deviation of y from a five-pulse shape, output step", kTvm, Unit::output, 'o'},
+    {"TV6_yo", "deviation of y from a six-pulse shape, output step", kTvm, Unit::output, 'o'},
+    {"TV7_yo", "deviation of y from a seven-pulse shape, output step", kTvm, Unit::output, 'o'},
+    {"TV8_yo", "deviation of y from an eight-pulse shape, output step", kTvm, Unit::output, 'o'},
+    {"TV_uo", "total variation of u, output step", kTv, Unit::input, 'o'},
+    {"TV0_uo", "deviation of u from monotonicity, output step", kTv0, Unit::input, 'o'},
+    {"TV1_uo", "deviation of u from a one-pulse shape, output step", kTv1, Unit::input, 'o'},
+    {"TV2_uo", "deviation of u from a two-pulse shape, output step", kTv2, Unit::input, 'o'},
+    {"TV3_uo", "deviation of u from a three-pulse shape, output step", kTvm, Unit::input, 'o'},
+    {"TV4_uo", "deviation of u from a four-pulse shape, output step", kTvm, Unit::input, 'o'},
+    {"TV5_uo", "deviation of u from a five-pulse shape, output step", kTvm, Unit::input, 'o'},
+    {"TV6_uo", "deviation of u from a six-pulse shape, output step", kTvm, Unit::input, 'o'},
+    {"TV7_uo", "deviation of u from a seven-pulse shape, output step", kTvm, Unit::input, 'o'},
+    {"TV8_uo", "deviation of u from an eight-pulse shape, output step", kTvm, Unit::input, 'o'},
+    {"y_max_o", "largest |y|, output step", kMax, Unit::output, 'o'},
+    {"u_max_o", "largest |u|, output step", kMax, Unit::input, 'o'},
+    {"DC_yw", "dynamic class of y, setpoint step", kClass, Unit::one, 'w'},
+    {"DC_uw", "dynamic class of u, setpoint step", kClass, Unit::one, 'w'},
+    {"DC_yd", "dynamic class of y, disturbance step", kClass, Unit::one, 'd'},
+    {"DC_ud", "dynamic class of u, disturbance step", kClass, Unit::one, 'd'},
+    {"DC_yo", "dynamic class of y, output step", kClass, Unit::one, 'o'},
+    {"DC_uo", "dynamic class of u, output step", kClass, Unit::one, 'o'},
 }};
 
 }  // namespace
@@ -75,5 +140,11 @@ std::optional<Measure> measure_named(std::string_view name) {
 }
 
 MeasureRow::MeasureRow() { values_.fill(std::numeric_limits<double>::quiet_NaN()); }
+
+double& MeasureRow::further(std::size_t i) {
+  if (further_.empty())
+    further_.assign(kMeasureCount - kStandardMeasureCount, std::numeric_limits<double>::quiet_NaN());
+  return further_[i];
+}
 
 }  // namespace portrait

@@ -1,14 +1,16 @@
 /// The measures: one number per setting. Names are public; order here is the order of columns everywhere.
 ///
 /// Suffix _w: unit setpoint step at t = 0. Suffix _d: unit input-disturbance step at t = 0, before the dead
-/// time.
+/// time. Suffix _o: unit step of the output itself at t = 0.
 /// unit      normalised (dimensionless); `scale` in engine/loop/real_plant.h leads to real units
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace portrait {
 
@@ -50,8 +52,67 @@ enum class Measure {
   PM,
   DM,
   noise_gain,
+  // Further measures, kept where they are named.
+  TV3_yw,
+  TV4_yw,
+  TV5_yw,
+  TV6_yw,
+  TV7_yw,
+  TV8_yw,
+  TV3_uw,
+  TV4_uw,
+  TV5_uw,
+  TV6_uw,
+  TV7_uw,
+  TV8_uw,
+  TV3_yd,
+  TV4_yd,
+  TV5_yd,
+  TV6_yd,
+  TV7_yd,
+  TV8_yd,
+  TV3_ud,
+  TV4_ud,
+  TV5_ud,
+  TV6_ud,
+  TV7_ud,
+  TV8_ud,
+  IAE_o,
+  ISE_o,
+  ITAE_o,
+  ITSE_o,
+  TV_yo,
+  TV0_yo,
+  TV1_yo,
+  TV2_yo,
+  TV3_yo,
+  TV4_yo,
+  TV5_yo,
+  TV6_yo,
+  TV7_yo,
+  TV8_yo,
+  TV_uo,
+  TV0_uo,
+  TV1_uo,
+  TV2_uo,
+  TV3_uo,
+  TV4_uo,
+  TV5_uo,
+  TV6_uo,
+  TV7_uo,
+  TV8_uo,
+  y_max_o,
+  u_max_o,
+  DC_yw,
+  DC_uw,
+  DC_yd,
+  DC_ud,
+  DC_yo,
+  DC_uo,
 };
-inline constexpr std::size_t kMeasureCount = 37;
+inline constexpr std::size_t kMeasureCount = 93;
+/// The first of them, which a portrait keeps when nothing else is asked for.
+inline constexpr std::size_t kStandardMeasureCount = 37;
 
 /// What a measure is made of, which fixes its real unit.
 enum class Unit {
@@ -73,7 +134,7 @@ struct MeasureInfo {
   std::string_view long_name;   ///< what it is, in words
   std::string_view definition;  ///< its equation
   Unit unit;
-  char step;  ///< 'w', 'd', or '-' for a property of the loop alone
+  char step;  ///< 'w', 'd', 'o', or '-' for a property of the loop alone
 };
 
 const MeasureInfo& info(Measure measure);
@@ -86,15 +147,32 @@ constexpr std::array<Measure, kMeasureCount> all_measures() {
   return all;
 }
 
+constexpr std::array<Measure, kStandardMeasureCount> standard_measures() {
+  std::array<Measure, kStandardMeasureCount> standard{};
+  for (std::size_t i = 0; i < standard.size(); ++i) standard[i] = static_cast<Measure>(i);
+  return standard;
+}
+constexpr bool is_standard(Measure measure) { return static_cast<std::size_t>(measure) < kStandardMeasureCount; }
+
 /// One value per measure; NaN where the measure does not exist for the loop.
 class MeasureRow {
  public:
   MeasureRow();
-  double& operator[](Measure measure) { return values_[static_cast<std::size_t>(measure)]; }
-  double operator[](Measure measure) const { return values_[static_cast<std::size_t>(measure)]; }
+  double& operator[](Measure measure) {
+    const auto i = static_cast<std::size_t>(measure);
+    return i < kStandardMeasureCount ? values_[i] : further(i - kStandardMeasureCount);
+  }
+  double operator[](Measure measure) const {
+    const auto i = static_cast<std::size_t>(measure);
+    if (i < kStandardMeasureCount) return values_[i];
+    return further_.empty() ? std::numeric_limits<double>::quiet_NaN() : further_[i - kStandardMeasureCount];
+  }
 
  private:
-  std::array<double, kMeasureCount> values_;
+  double& further(std::size_t i);
+
+  std::array<double, kStandardMeasureCount> values_;
+  std::vector<double> further_;  ///< the others, once one was written: a sweep copies many rows that have none
 };
 
 }  // namespace portrait

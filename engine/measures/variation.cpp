@@ -50,4 +50,22 @@ double shape_deviation(std::span<const double> x, double x_infinity, int m) {
   return total_variation(x) + std::abs(x_infinity - x.back()) - best_shape;
 }
 
+int alternating_extremes(std::span<const double> x, double x_infinity, double tolerance) {
+  PORTRAIT_CHECK(!x.empty());
+  const auto side = [&](double deviation) { return deviation > tolerance ? 1 : deviation < -tolerance ? -1 : 0; };
+  const double start = x.front() - x_infinity;
+  int last = 0, count = 0;
+  for (const double point : x.subspan(1)) {
+    const double deviation = point - x_infinity;
+    const int here = side(deviation);
+    if (here == 0 || here == last) continue;
+    const bool still_coming =
+        last == 0 && here == side(start) && std::abs(deviation) <= std::abs(start) + tolerance;
+    if (still_coming) continue;
+    last = here;
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace portrait

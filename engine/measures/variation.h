@@ -24,4 +24,8 @@ double total_variation(std::span<const double> turning_points);
 /// TVm. REQUIRES: at least one turning point, m >= 0.
 double shape_deviation(std::span<const double> turning_points, double x_infinity, int m);
 
+/// Dynamic class: how many extremes lie alternately above and below x(inf), by more than `tolerance`.  [Huba2021 (41)]
+/// Where x comes from x(0-) on the side on which it ends, only points beyond x(0-) count as an extreme there.
+int alternating_extremes(std::span<const double> turning_points, double x_infinity, double tolerance);
+
 }  // namespace portrait

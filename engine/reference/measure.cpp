@@ -60,7 +60,8 @@ bool is_settled(const std::vector<Piece>& pieces, SeriesOf signal, double noise,
   return at_end <= kSettlingBand * deviation(turning_points(pieces, signal, noise));
 }
 
-constexpr std::array<StepMeasures, 2> kMeasuresOf = {kSetpointMeasures, kDisturbanceMeasures};
+constexpr std::array<StepMeasures, kSteps> kMeasuresOf = {kSetpointMeasures, kDisturbanceMeasures,
+                                                          kOutputStepMeasures};
 
 /// Of a limit that is a quotient of coefficients.
 constexpr double kSameRest = 1e-12;
@@ -75,19 +76,33 @@ void measure_error(const StepResponse& r, double target, const StepMeasures& nam
   row[names.ITSE] = of_error.ITSE;
 }
 
-void measure_signal(std::span<const double> points, double at_rest, const std::array<Measure, 4>& columns,
-                    Measure largest, MeasureRow& row) {
-  row[columns[0]] = total_variation(points);
-  for (int m = 0; m <= 2; ++m)
-    row[columns[static_cast<std::size_t>(m) + 1]] = std::max(0.0, shape_deviation(points, at_rest, m));
-  row[largest] = largest_magnitude(points);
+/// The measures of one signal after one step, by name.
+struct SignalMeasures {
+  const std::array<Measure, 4>& variations;
+  const std::array<Measure, 6>& further;
+  Measure largest, dynamic_class;
+};
+
+void measure_signal(std::span<const double> points, double at_rest, const SignalMeasures& names, MeasureRow& row) {
+  row[names.variations[0]] = total_variation(points);
+  for (int m = 0; m <= 8; ++m) {
+    const auto i = static_cast<std::size_t>(m);
+    const Measure name = m <= 2 ? names.variations[i + 1] : names.further[i - 3];
+    row[name] = std::max(0.0, shape_deviation(points, at_rest, m));
+  }
+  row[names.largest] = largest_magnitude(points);
+  double deviation = 0;
+  for (const double x : points) deviation = std::max(deviation, std::abs(x - at_rest));
+  row[names.dynamic_class] = alternating_extremes(points, at_rest, kSettlingBand * deviation);
 }
 
 void measure_step(const StepResponse& r, Step step, MeasureRow& row) {
   const StepMeasures& names = kMeasuresOf[static_cast<std::size_t>(step)];
   measure_error(r, step == kSetpoint ? 1 : 0, names, row);
-  measure_signal(turning_points(r.pieces, &Piece::y, r.y_noise), r.at_rest.y, names.of_y, names.y_max, row);
-  measure_signal(turning_points(r.pieces, &Piece::u, r.u_noise), r.at_rest.u, names.of_u, names.u_max, row);
+  measure_signal(turning_points(r.pieces, &Piece::y, r.y_noise), r.at_rest.y,
+                 {names.of_y, names.further_y, names.y_max, names.class_y}, row);
+  measure_signal(turning_points(r.pieces, &Piece::u, r.u_noise), r.at_rest.u,
+                 {names.of_u, names.further_u, names.u_max, names.class_u}, row);
 }
 
 bool is_settled(const Response& response) {
@@ -103,7 +118,7 @@ Measured measured_responses(const Response& response) {
   Measured measured;
   measured.horizon = response.horizon;
   measured.status = is_settled(response) ? Status::settled : Status::not_settled;
-  for (const Step step : kUsualSteps)
+  for (const Step step : kAllSteps)
     if (!response.steps[step].pieces.empty()) measure_step(response.steps[step], step, measured.measures);
   return measured;
 }
@@ -133,9 +148,10 @@ MeasuredInUnits measure_in_units(const GeneralLoop& loop, Horizon horizon, std::
   return found;
 }
 
-Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy, std::optional<double> sampling) {
+Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy, std::optional<double> sampling,
+                 std::span<const Step> steps) {
   if (!is_stable(open_loop(loop))) return {.status = Status::unstable, .measures = {}, .horizon = 0};
-  return measure(loop, simulate(loop, horizon, accuracy), sampling);
+  return measure(loop, simulate(loop, horizon, accuracy, steps), sampling);
 }
 
 }  // namespace portrait::reference

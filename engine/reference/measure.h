@@ -24,7 +24,7 @@ struct Measured {
 
 /// `sampling` in dead times, for noise_gain, which is NaN without it. REQUIRES: the loop is valid.
 Measured measure(const Loop& loop, Horizon horizon, const Accuracy& accuracy = {},
-                 std::optional<double> sampling = std::nullopt);
+                 std::optional<double> sampling = std::nullopt, std::span<const Step> steps = kUsualSteps);
 
 /// The same of a general loop, normalised, without noise_gain. REQUIRES: the loop is valid and normalised.
 Measured measure(const GeneralLoop& loop, Horizon horizon, const Accuracy& accuracy = {},

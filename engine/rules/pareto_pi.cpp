@@ -62,8 +62,7 @@ double peak(const Loop& loop) {
 /// In real units: a setpoint step's error scales with time, a disturbance's with time and the plant's gain.
 PiErrors errors(const Loop& loop, double gain, double tau) {
   SettingMeasured measured;
-  measure_settings(Method::kernel, loop.family, Horizon::until_settled(), std::nullopt, {&loop.setting, 1},
-                   {&measured, 1});
+  measure_settings(Method::kernel, loop.family, Horizon::until_settled(), {}, {&loop.setting, 1}, {&measured, 1});
   return {measured.measures[Measure::IAE_w] * tau, measured.measures[Measure::IAE_d] * tau * std::abs(gain)};
 }
 

@@ -69,8 +69,8 @@ GeneralLoop general_loop(const RulePlant& plant, const Tuned& tuned) {
 TunedMeasures measured(const RulePlant& plant, const Tuned& tuned) {
   if (const auto family = tuned_loop(plant, tuned)) {
     SettingMeasured found;
-    measure_settings(Method::kernel, family->loop.family, Horizon::until_settled(), std::nullopt,
-                     {&family->loop.setting, 1}, {&found, 1});
+    measure_settings(Method::kernel, family->loop.family, Horizon::until_settled(), {}, {&family->loop.setting, 1},
+                     {&found, 1});
     for (const Measure m : all_measures()) found.measures[m] *= scale(m, family->plant);
     return {found.status, found.measures};
   }

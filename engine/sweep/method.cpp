@@ -15,14 +15,18 @@
 namespace portrait {
 namespace {
 
-SettingMeasured measured_by_reference(const Loop& loop, Horizon horizon, std::optional<double> sampling) try {
-  const reference::Measured m = reference::measure(loop, horizon, {}, sampling);
+/// An ideal derivative of the output makes an impulse of its step.
+bool has_output_step(const Loop& loop) { return loop.family.n > 0 || loop.setting.delta == 0; }
+
+SettingMeasured measured_by_reference(const Loop& loop, Horizon horizon, const Extras& extras) try {
+  const auto steps = std::span(reference::kAllSteps).first(extras.output_step && has_output_step(loop) ? 3 : 2);
+  const reference::Measured m = reference::measure(loop, horizon, {}, extras.sampling, steps);
   return {m.status, m.measures, m.horizon, Method::reference};
 } catch (const std::exception& failure) {
   throw std::runtime_error(fmt::format("{}\nreproduce: {}", failure.what(), simulate_command(loop)));
 }
 
-void measure_by_kernel(const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+void measure_by_kernel(const LoopFamily& family, Horizon horizon, const Extras& extras,
                        std::span<const Setting> settings, std::span<SettingMeasured> results) {
   std::vector<kernel::Measured> found(settings.size());
   kernel::measure(chosen_implementation(), family, horizon, settings, found);
@@ -30,12 +34,12 @@ void measure_by_kernel(const LoopFamily& family, Horizon horizon, std::optional<
     const kernel::Measured& m = found[i];
     const Loop loop{family, settings[i]};
     if (!m.resolved) {
-      results[i] = measured_by_reference(loop, horizon, sampling);
+      results[i] = measured_by_reference(loop, horizon, extras);
       continue;
     }
     results[i] = {m.status, m.measures, m.horizon, Method::kernel};
-    if (sampling && m.status != Status::unstable)
-      results[i].measures[Measure::noise_gain] = noise_gain(loop, *sampling);
+    if (extras.sampling && m.status != Status::unstable)
+      results[i].measures[Measure::noise_gain] = noise_gain(loop, *extras.sampling);
   }
 }
 
@@ -52,12 +56,33 @@ std::string method_text(Method method) {
   return fmt::format("kernel, {}", chosen_implementation().name);
 }
 
-void measure_settings(Method method, const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+Method method_for(std::span<const Measure> measures) {
+  return why_not_measured(Method::kernel, measures) ? Method::reference : Method::kernel;
+}
+
+Extras extras_for(std::span<const Measure> measures, std::optional<double> sampling) {
+  Extras extras;
+  for (const Measure m : measures) {
+    if (m == Measure::noise_gain) extras.sampling = sampling;
+    if (info(m).step == 'o') extras.output_step = true;
+  }
+  return extras;
+}
+
+void measure_settings(Method method, const LoopFamily& family, Horizon horizon, const Extras& extras,
                       std::span<const Setting> settings, std::span<SettingMeasured> results) {
   PORTRAIT_CHECK_EQ(settings.size(), results.size());
-  if (method == Method::kernel) return measure_by_kernel(family, horizon, sampling, settings, results);
+  if (method == Method::kernel) return measure_by_kernel(family, horizon, extras, settings, results);
   for (std::size_t i = 0; i < settings.size(); ++i)
-    results[i] = measured_by_reference({family, settings[i]}, horizon, sampling);
+    results[i] = measured_by_reference({family, settings[i]}, horizon, extras);
+}
+
+std::optional<std::string> why_not_measured(Method method, std::span<const Measure> measures) {
+  for (const Measure m : measures)
+    if (method == Method::kernel && !is_standard(m))
+      return fmt::format("the kernel does not measure {}: --method reference does, one setting after the other",
+                         to_string(m));
+  return std::nullopt;
 }
 
 }  // namespace portrait

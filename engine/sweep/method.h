@@ -37,8 +37,22 @@ struct SettingMeasured {
   Method method = Method::reference;  ///< the kernel leaves what its finest panels cannot resolve to the reference
 };
 
-/// `sampling` in dead times, for noise_gain, which is NaN without it. REQUIRES: settings valid; as many results.
-void measure_settings(Method method, const LoopFamily& family, Horizon horizon, std::optional<double> sampling,
+/// Why this method does not measure this, and which does ("the kernel does not measure TV3_uw: ..."), or nothing.
+std::optional<std::string> why_not_measured(Method method, std::span<const Measure> measures);
+
+/// The kernel where it measures all of these, else the reference.
+Method method_for(std::span<const Measure> measures);
+
+/// What is measured only where it is asked for; its measures are NaN otherwise.
+struct Extras {
+  std::optional<double> sampling = std::nullopt;  ///< dead times over which noise is held, for noise_gain
+  bool output_step = false;                       ///< the measures of the step o
+};
+/// What these measures need of them.
+Extras extras_for(std::span<const Measure> measures, std::optional<double> sampling);
+
+/// REQUIRES: settings valid; as many results.
+void measure_settings(Method method, const LoopFamily& family, Horizon horizon, const Extras& extras,
                       std::span<const Setting> settings, std::span<SettingMeasured> results);
 
 }  // namespace portrait

@@ -38,9 +38,12 @@ class Worker {
  public:
   Worker(const SweepJob& job, TileQueue& queue, FirstFailure& failure, std::mutex& progress,
          std::atomic<std::uint64_t>& left_over)
-      : job_(job), queue_(queue), failure_(failure), progress_(progress), left_over_(left_over) {
-    if (keeps(job.measures, Measure::noise_gain)) sampling_ = job.sampling;
-  }
+      : job_(job),
+        queue_(queue),
+        failure_(failure),
+        progress_(progress),
+        left_over_(left_over),
+        extras_(extras_for(job.measures, job.sampling)) {}
 
   /// An exception must not leave a parallel region.
   void run() {
@@ -63,7 +66,7 @@ class Worker {
   void measure(const Slice& slice) {
     const auto settings = std::span(slice.tile->settings).subspan(slice.first, slice.count);
     measured_.resize(slice.count);
-    measure_settings(job_.method, job_.family, job_.horizon, sampling_, settings, measured_);
+    measure_settings(job_.method, job_.family, job_.horizon, extras_, settings, measured_);
     for (std::size_t i = 0; i < slice.count; ++i) {
       slice.tile->columns.set(slice.first + i, measured_[i].status, measured_[i].measures);
       if (measured_[i].method != job_.method) ++left_over_;
@@ -81,7 +84,7 @@ class Worker {
   FirstFailure& failure_;
   std::mutex& progress_;
   std::atomic<std::uint64_t>& left_over_;
-  std::optional<double> sampling_;         ///< only where noise_gain is kept
+  Extras extras_;
   std::vector<SettingMeasured> measured_;  ///< of the slice in hand
 };
 
@@ -90,6 +93,7 @@ class Worker {
 int usual_threads() { return omp_get_max_threads(); }
 
 SweepOutcome sweep(const SweepJob& job) {
+  PORTRAIT_CHECK(!why_not_measured(job.method, job.measures));
   PORTRAIT_CHECK(job.sampling || !keeps(job.measures, Measure::noise_gain));
   const auto begin = std::chrono::steady_clock::now();
   const int threads = job.threads > 0 ? job.threads : usual_threads();

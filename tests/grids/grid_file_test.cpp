@@ -31,7 +31,7 @@ TEST(GridFile, TheExampleIsReadAsPrinted) {
   EXPECT_EQ(grid.horizon.dead_times, 51);
   EXPECT_FALSE(grid.horizon.automatic);
   EXPECT_EQ(grid.precision, Precision::real64);
-  EXPECT_EQ(grid.measures.size(), kMeasureCount - 1) << "without noise_gain";
+  EXPECT_EQ(grid.measures.size(), kStandardMeasureCount - 1) << "without noise_gain";
   EXPECT_EQ(setting_count(grid), 31u * 15 * 6 * 9);
   EXPECT_EQ(fixed_text(grid), (Strings{"b=0", "c=0"}));
 }
@@ -63,7 +63,7 @@ TEST(GridFile, WhatIsLeftOutHasADefault) {
   EXPECT_EQ(grid.family.n, 0);
   EXPECT_EQ(grid.family.prefilter, Prefilter::pi);
   EXPECT_EQ(grid.precision, Precision::real64);
-  EXPECT_EQ(grid.measures.size(), kMeasureCount - 1) << "without noise_gain";
+  EXPECT_EQ(grid.measures.size(), kStandardMeasureCount - 1) << "without noise_gain";
   EXPECT_TRUE(grid.axes.empty());
   EXPECT_EQ(fixed_text(grid), (Strings{"kappa=0.2", "tau_i=8", "delta=0", "b=0"}));
   EXPECT_EQ(parsed(kHead + "n = 1\n" + kLoop + "tau_f = 0.1").family.prefilter, Prefilter::full);
@@ -73,7 +73,7 @@ TEST(GridFile, SamplingBringsTheNoiseGain) {
   EXPECT_FALSE(parsed(kHead + kLoop).sampling);
   const Grid grid = parsed(kHead + "sampling = 0.25\n" + kLoop);
   EXPECT_EQ(grid.sampling, 0.25);
-  EXPECT_EQ(grid.measures.size(), kMeasureCount);
+  EXPECT_EQ(grid.measures.size(), kStandardMeasureCount);
   const Grid some = parsed(kHead + "sampling = 1\nmeasures = [\"noise_gain\", \"Ms\"]\n" + kLoop);
   EXPECT_EQ(some.measures, (std::vector<Measure>{Measure::Ms, Measure::noise_gain}));
   EXPECT_EQ(parsed(kHead + "sampling = 1\nmeasures = [\"Ms\"]\n" + kLoop).measures,

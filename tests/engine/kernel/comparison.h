@@ -16,7 +16,7 @@ namespace portrait {
 
 inline std::vector<Measure> response_measures() {
   std::vector<Measure> found;
-  for (const Measure m : all_measures())
+  for (const Measure m : standard_measures())
     if (info(m).step != '-') found.push_back(m);
   return found;
 }

@@ -31,7 +31,7 @@ TEST(Catalogue, NamesAreUniqueAndLeadBack) {
 }
 
 TEST(Catalogue, KnowsNoOtherName) {
-  for (const char* name : {"", "iae_w", "IAE", "TV3_uw", "IAE_w "}) EXPECT_FALSE(measure_named(name)) << name;
+  for (const char* name : {"", "iae_w", "IAE", "TV9_uw", "IAE_w "}) EXPECT_FALSE(measure_named(name)) << name;
 }
 
 TEST(Catalogue, EveryMeasureIsExplained) {
@@ -41,13 +41,14 @@ TEST(Catalogue, EveryMeasureIsExplained) {
   }
 }
 
-/// _w and _d, with y or u before it: GM_low ends in w and is of no step.
+/// _w, _d and _o, with y or u before it: GM_low ends in w and is of no step.
 TEST(Catalogue, TheStepIsTheNamesLastLetter) {
   for (const Measure m : all_measures()) {
     const std::string_view name = to_string(m);
     const std::size_t dash = name.rfind('_');
-    const bool of_a_step =
-        dash != std::string_view::npos && (name.back() == 'w' || name.back() == 'd') && name.size() - dash <= 3;
+    const bool of_a_step = dash != std::string_view::npos &&
+                           (name.back() == 'w' || name.back() == 'd' || name.back() == 'o') &&
+                           name.size() - dash <= 3;
     EXPECT_EQ(info(m).step, of_a_step ? name.back() : '-') << name;
   }
 }

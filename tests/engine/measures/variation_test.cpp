@@ -139,5 +139,25 @@ TEST(ShapeDeviation, RefusesNoPointsAndNegativeM) {
   EXPECT_THROW(shape_deviation(Points{0}, 0, -1), BrokenPromise);
 }
 
+/// The extremes of a fourth-order system's control signal.                                 [Huba2021 (44), (45)]
+TEST(ShapeDeviation, OfTheFivePointsOfHuba2021) {
+  const Points u{0, 1.68, 0.80, 1.05, 0.98, 1};
+  const double published[] = {1.9, 0.54, 0.14, 0.04, 0};
+  EXPECT_NEAR(total_variation(u), 2.9, 1e-14);
+  for (int m = 0; m <= 8; ++m) EXPECT_NEAR(shape_deviation(u, 1, m), m <= 4 ? published[m] : 0, 1e-14) << m;
+  EXPECT_EQ(alternating_extremes(u, 1, 0.01), 4);
+  EXPECT_EQ(alternating_extremes(u, 1, 0.03), 3) << "0.98 is within the tolerance";
+}
+
+TEST(AlternatingExtremes, CountsWhatLiesBeyondTheTolerance) {
+  EXPECT_EQ(alternating_extremes(Points{0, 0.5, 1}, 1, 0.01), 0) << "monotonic";
+  EXPECT_EQ(alternating_extremes(Points{0, 0.6, 0.4, 1}, 1, 0.01), 0) << "no extreme beyond the start";
+  EXPECT_EQ(alternating_extremes(Points{0, -0.5, 1}, 1, 0.01), 1) << "an inverse response has one";
+  EXPECT_EQ(alternating_extremes(Points{0, 2, 1.5, 3, 1}, 1, 0.01), 1) << "on one side they are one pulse";
+  EXPECT_EQ(alternating_extremes(Points{0, 1, 0}, 0, 0.01), 1);
+  EXPECT_EQ(alternating_extremes(Points{0, 1, -1, 1, 0}, 0, 0.01), 3);
+  EXPECT_EQ(alternating_extremes(Points{0}, 0, 0), 0);
+}
+
 }  // namespace
 }  // namespace portrait

@@ -44,7 +44,7 @@ class Collected {
 };
 
 inline std::vector<Measure> every_measure() {
-  const auto all = all_measures();
+  const auto all = standard_measures();
   return {all.begin(), all.end()};
 }
 

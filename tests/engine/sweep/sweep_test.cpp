@@ -43,7 +43,7 @@ TEST(Sweep, UsesTheKernelUnlessToldOtherwise) {
   EXPECT_EQ(sweep(job).settings_by_reference, 0u);
 
   std::vector<SettingMeasured> measured(settings.size());
-  measure_settings(Method::kernel, job.family, job.horizon, job.sampling, settings, measured);
+  measure_settings(Method::kernel, job.family, job.horizon, {.sampling = job.sampling}, settings, measured);
   MeasureColumns expected(every_measure(), settings.size());
   for (std::size_t i = 0; i < settings.size(); ++i) expected.set(i, measured[i].status, measured[i].measures);
   expect_same_bits(collected.columns(), expected);
