@@ -208,7 +208,7 @@ Horizon shown_horizon(const Loop& loop, const Horizon& horizon) {
   if (!horizon.automatic && horizon.dead_times <= kLongestShown) return horizon;
   SettingMeasured measured;
   if (!is_stable(open_loop(loop))) return Horizon::fixed(30);
-  measure_settings(Method::kernel, loop.family, Horizon::until_settled(), std::nullopt, {&loop.setting, 1},
+  measure_settings(Method::kernel, loop.family, Horizon::until_settled(), {}, {&loop.setting, 1},
                    {&measured, 1});
   return Horizon::fixed(std::min(measured.horizon, kLongestShown));
 }
