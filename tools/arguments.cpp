@@ -37,6 +37,16 @@ std::vector<Assignment> assignments(std::string_view option, std::string_view te
   return found;
 }
 
+/// "0.4..0.6", or one number for both ends.
+Range range_of(std::string_view option, const std::string& text) {
+  const auto dots = text.find("..");
+  if (dots == std::string::npos) {
+    const double only = number_argument(option, text);
+    return {only, only};
+  }
+  return {number_argument(option, text.substr(0, dots)), number_argument(option, text.substr(dots + 2))};
+}
+
 }  // namespace
 
 double number_argument(std::string_view option, std::string_view text) {
@@ -98,6 +108,28 @@ RealPlant real_plant_argument(std::string_view option, std::string_view text, Pl
   }
   if (const auto reason = why_invalid(plant)) fail(option, *reason);
   return plant;
+}
+
+PlantBox uncertain_argument(std::string_view option, std::string_view text, const std::optional<RealPlant>& nominal,
+                            Plant family) {
+  const RealPlant middle = nominal.value_or(RealPlant{.family = family, .K = 1, .Td = 0, .T1 = 0});
+  PlantBox box{middle, {middle.K, middle.K}, {middle.Td, middle.Td}, {middle.T1, middle.T1}};
+  const std::vector<Assignment> given = assignments(option, text);
+  if (given.empty()) fail(option, "say which of K, Td and T1 vary, as K=0.8..1.2,Td=0.8..1.2");
+  for (const auto& [name, value] : given) {
+    if (name != "K" && name != "Td" && name != "T1")
+      fail(option, fmt::format("unknown name \"{}\"{}", name, suggestion(name, {"K", "Td", "T1"})));
+    if (name == "T1" && family != Plant::fotd)
+      fail(option, fmt::format("T1 belongs to fotd, not to {}", to_string(family)));
+    const Range range = range_of(option, value);
+    (name == "K" ? box.K : name == "Td" ? box.Td : box.T1) = range;
+    if (!nominal)
+      (name == "K"    ? box.nominal.K
+       : name == "Td" ? box.nominal.Td
+                      : box.nominal.T1) = range.low + 0.5 * (range.high - range.low);
+  }
+  if (const auto reason = why_invalid(box)) fail(option, *reason);
+  return box;
 }
 
 StepSizes step_argument(std::string_view option, std::string_view text) {

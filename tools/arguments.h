@@ -11,6 +11,7 @@
 #include "engine/loop/real_plant.h"
 #include "engine/sweep/method.h"
 #include "grids/grid.h"
+#include "portraits/query/plant_box.h"
 #include "portraits/query/query_units.h"
 
 namespace portrait::tools {
@@ -30,6 +31,11 @@ Method method_argument(std::string_view option, std::string_view text);
 
 /// "K=2.5,Td=0.4[,T1=3]" for a plant of this family; K is 1 when it is not given.
 RealPlant real_plant_argument(std::string_view option, std::string_view text, Plant family);
+
+/// "K=1.6..2.4,Td=0.4..0.6[,T1=2..3]": plants around the nominal one, by default that in the middle. What is not named is
+/// as in the nominal plant; without one K is 1.
+PlantBox uncertain_argument(std::string_view option, std::string_view text, const std::optional<RealPlant>& nominal,
+                            Plant family);
 
 /// "w=2,d=0.5": sizes of steps, 1 where none is given.
 StepSizes step_argument(std::string_view option, std::string_view text);

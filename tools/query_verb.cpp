@@ -15,6 +15,7 @@
 #include "tools/exit_codes.h"
 #include "tools/query_kinds.h"
 #include "tools/query_output.h"
+#include "tools/query_robust.h"
 #include "tools/query_rules.h"
 #include "tools/verbs.h"
 
@@ -38,10 +39,15 @@ More answers:
   portrait query huba.h5 --pareto IAE_w,IAE_d,TV_uw --where 'Ms <= 2'
   portrait query huba.h5 --minimize IAE_d --along Ms=1.4..2.2:9 --refine
   portrait query huba.h5 --why kappa=0.3,tau_i=8,delta=0.7 --where 'TV2_ud <= 0.1'
-  portrait query huba.h5 --region --where 'Ms <= 2')";
+  portrait query huba.h5 --region --where 'Ms <= 2'
+
+A plant known only within bounds: one controller under which every plant of the box meets
+every constraint, guaranteed between the simulated plants too. Settings are controllers for
+the nominal plant, --plant or the middle of the box; names of axes mean those settings.
+  portrait query huba.h5 --minimize IAE_d --where 'Ms <= 2' --uncertain K=0.8..1.2,Td=0.8..1.2)";
 
 struct QueryArguments {
-  std::string file, minimize, plant, step, pareto, why, along;
+  std::string file, minimize, plant, step, pareto, why, along, uncertain, over = "worst";
   std::vector<std::string> where;
   std::size_t top = 1, points = 12;
   int threads = 0;
@@ -276,6 +282,17 @@ std::optional<double> optimum_of(const Answer& answer) {
 
 int best(const QueryArguments& a, const QueryRequest& request);
 
+/// What --uncertain does not go together with is said, not left out.
+int robust(const QueryArguments& a, const QueryRequest& request) {
+  const std::pair<bool, const char*> others[] = {{!a.pareto.empty(), "--pareto"}, {!a.along.empty(), "--along"},
+                                                 {a.region, "--region"},          {a.refine, "--refine"},
+                                                 {a.rules, "--rules"}};
+  for (const auto& [given, name] : others)
+    if (given) throw InputError(fmt::format("--uncertain and {}: give one of the two", name));
+  if (a.minimize.empty()) throw InputError("--minimize is missing: an expression, as IAE_w + IAE_d");
+  return print_robust(request, {a.minimize, a.uncertain, a.over, a.why, a.top});
+}
+
 int query(const QueryArguments& a) {
   if (a.json && a.csv) throw InputError("--json and --csv: give one of the two");
   const PortraitReader portrait(a.file);
@@ -283,6 +300,8 @@ int query(const QueryArguments& a) {
                              a.json  ? OutputForm::json
                              : a.csv ? OutputForm::csv
                                      : OutputForm::text};
+  if (!a.uncertain.empty()) return robust(a, request);
+  if (a.over != "worst") throw InputError("--objective-over belongs to --uncertain");
   if (!a.pareto.empty()) return print_pareto(request, a.pareto, a.points);
   if (a.region) return print_region(request);
   if (!a.why.empty() && a.along.empty()) return print_why(request, a.why, a.minimize);
@@ -334,6 +353,9 @@ void add_query(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false);
   verb->add_option("--top", a->top, "how many of the best settings to list")->capture_default_str();
   verb->add_option("--plant", a->plant, "K=..,Td=..[,T1=..]: the answer in the units of this plant");
+  verb->add_option("--uncertain", a->uncertain, "K=lo..hi,Td=lo..hi[,T1=lo..hi]: serve every plant of this box");
+  verb->add_option("--objective-over", a->over, "with --uncertain, the objective over the box: worst, mean or nominal")
+      ->capture_default_str();
   verb->add_option("--step", a->step, "w=..,d=..: sizes of the steps in setpoint and disturbance (1 each)");
   verb->add_flag("--rules", a->rules, "where each tuning rule lies: admissible or not, and its objective over the optimum's");
   verb->add_flag("--include-not-settled", a->include_not_settled,

@@ -1,7 +1,5 @@
 #include "portraits/query/measured.h"
 
-#include <future>
-
 #include "engine/sweep/method.h"
 #include "portraits/query/workers.h"
 
@@ -31,20 +29,9 @@ double quantity_at(Quantity quantity, const Measured& measured) {
 std::vector<Measured> measure(const Grid& grid, const QueryUnits& units, std::span<const Setting> settings,
                               int threads) {
   std::vector<Measured> all(settings.size());
-  const std::size_t parts =
-      std::max<std::size_t>(1, std::min(thread_count(threads), settings.size() / kSettingsPerThread));
-  std::vector<std::future<void>> others;
-  for (std::size_t part = 0; part < parts; ++part) {
-    const std::size_t begin = settings.size() * part / parts, end = settings.size() * (part + 1) / parts;
-    const auto work = [&, begin, end] {
-      measure_part(grid, units, settings.subspan(begin, end - begin), std::span(all).subspan(begin, end - begin));
-    };
-    if (part + 1 < parts)
-      others.push_back(std::async(std::launch::async, work));
-    else
-      work();
-  }
-  for (std::future<void>& other : others) other.get();
+  in_parts(threads, settings.size(), kSettingsPerThread, [&](std::size_t begin, std::size_t end) {
+    measure_part(grid, units, settings.subspan(begin, end - begin), std::span(all).subspan(begin, end - begin));
+  });
   return all;
 }
 

@@ -19,6 +19,18 @@ inline std::size_t thread_count(int wanted) {
   return wanted > 0 ? static_cast<std::size_t>(wanted) : std::max(1U, std::thread::hardware_concurrency());
 }
 
+/// Calls work(begin, end) for runs that make up 0 .. count - 1, on as many threads as have `least` of them to do each. The
+/// first failure is rethrown when all have ended.
+template <typename Work>
+void in_parts(int threads, std::size_t count, std::size_t least, Work work) {
+  const std::size_t parts = std::max<std::size_t>(1, std::min(thread_count(threads), count / least));
+  std::vector<std::future<void>> others;
+  for (std::size_t part = 0; part + 1 < parts; ++part)
+    others.push_back(std::async(std::launch::async, work, count * part / parts, count * (part + 1) / parts));
+  work(count * (parts - 1) / parts, count);
+  for (std::future<void>& other : others) other.get();
+}
+
 /// A number that threads lower, or read to see how far it has come. What it decides must not change an answer, only how
 /// much is read for it.
 class SharedLeast {

@@ -160,6 +160,68 @@ class Query(ProgramTest):
         answer = self.query("--region", "--json").json
         self.assertEqual(sum(answer["axes"]["kappa"]["counts"]), answer["admissible"])
 
+    def test_uncertain_plant(self):
+        asked = ("--minimize", "IAE_d", "--where", "Ms <= 4", "--uncertain", "K=1.9..2.1,Td=0.48..0.52")
+        result = self.query(*asked)
+        self.assertEqual((result.code, result.err), (0, ""))
+        self.assertRegex(result.out, r"^IAE_d, worst over K in 1.9..2.1, Td in 0.48..0.52: [\d.]+ at kappa=.* \(nominal .*K = 2, Td = 0.5\)")
+        self.assertRegex(result.out, r"\n  Ms <= 4  worst [\d.]+ at K=2.1 Td=0.52: [\d.]+ % to spare, nowhere less than [\d.]+ %\n")
+        self.assertRegex(result.out, r"\n  its patch of the portrait: kappa [\d.]+\.\.[\d.]+, ")
+        self.assertIn("1000 plants more, spread evenly over the box: none breaks a constraint", result.out)
+        self.assertIn("controller for K e^(-Td s)/s^2, K = 2, Td = 0.5", result.out)
+        answer = self.query(*asked, "--json").json
+        over = answer["optimum"]["over_box"]
+        self.assertTrue(over["guaranteed"])
+        (constraint,) = over["constraints"]
+        self.assertEqual(constraint["plant"], {"family": "dipdt", "K": 2.1, "Td": 0.52})
+        self.assertAlmostEqual(constraint["excess"], constraint["value"] / 4 - 1)
+        self.assertLessEqual(constraint["excess"], constraint["excess_at_most"])
+        self.assertLessEqual(constraint["excess_at_most"], 0)
+        self.assertEqual(answer["uncertain"], {"K": {"from": 1.9, "to": 2.1}, "Td": {"from": 0.48, "to": 0.52}})
+        # The worst plant's Ms, simulated by itself with the same real controller.
+        gains = answer["optimum"]["controller"]["parallel"]
+        kappa, tau_i = gains["Kp"] * 2.1 * 0.52 ** 2, gains["Kp"] / gains["Ki"] / 0.52
+        simulated = self.run_program("simulate", "--plant", "dipdt", "--kappa", kappa, "--tau-i", tau_i, "--delta",
+                                     gains["Kd"] * 2.1 * 0.52, "--horizon", "40", "--json").json
+        self.assertAlmostEqual(simulated["measures"]["Ms"], constraint["value"], places=9)
+
+    def test_one_setting_for_an_uncertain_plant(self):
+        setting = "kappa=0.2,delta=0.7,tau_i=8"
+        result = self.query("--minimize", "IAE_d", "--where", "Ms <= 2.6", "--uncertain", "K=0.8..1.2,Td=0.8..1.2", "--why", setting)
+        self.assertEqual(result.code, 0)
+        self.assertRegex(result.out, r"^kappa=0.2 .* does not serve every plant with K in 0.8..1.2, Td in 0.8..1.2\n")
+        self.assertRegex(result.out, r"\n  Ms <= 2.6  worst .* at K=1.2 Td=1.2: broken, by [\d.]+ %; on [\d.]+ % of the box\n")
+
+    def test_no_setting_for_an_uncertain_plant(self):
+        result = self.query("--minimize", "IAE_d", "--where", "Ms <= 2.6", "--uncertain", "K=0.3..3,Td=1")
+        self.assertEqual((result.code, result.out), (3, ""))
+        self.assertRegex(result.err, r"^portrait: no setting serves every plant with K in 0.3..3\n")
+        self.assertIn("least violation at kappa=", result.err)
+        answer = self.query("--minimize", "IAE_d", "--where", "Ms <= 2.6", "--uncertain", "K=0.3..3,Td=1", "--json")
+        self.assertEqual((answer.code, answer.json["optimum"]), (3, None))
+        self.assertEqual(answer.json["least_violation"]["outcome"], "some plant breaks a constraint")
+
+    def test_wrong_boxes(self):
+        cases = [
+            ("K=0.8..1.2", "--uncertain: Td must be finite and above 0 (it is 0)"),
+            ("Td=0.8..x", '--uncertain: "x" is not a number'),
+            ("Td=1.2..0.8", "--uncertain: Td=1.2..0.8: the low end comes first"),
+            ("K=-1..1,Td=1", "--uncertain: K=-1..1 holds 0: no controller serves a gain that may vanish or change its sign"),
+            ("Td=1,T1=2..3", "--uncertain: T1 belongs to fotd, not to dipdt"),
+            ("Td=1,k=2..3", '--uncertain: unknown name "k" (did you mean "K"?)'),
+        ]
+        for box, message in cases:
+            with self.subTest(box=box):
+                self.assert_fails(self.query("--minimize", "IAE_w", "--uncertain", box), 2, message)
+        box = ("--uncertain", "K=0.8..1.2,Td=1")
+        self.assert_fails(self.query("--minimize", "IAE_w", *box, "--plant", "K=2,Td=1"), 2,
+                          "--uncertain: the nominal K = 2 lies outside 0.8..1.2")
+        self.assert_fails(self.query("--minimize", "IAE_w", *box, "--refine"), 2, "--uncertain and --refine: give one of the two")
+        self.assert_fails(self.query("--minimize", "IAE_w", *box, "--objective-over", "wors"), 2,
+                          '--objective-over: unknown word "wors" (did you mean "worst"?)')
+        self.assert_fails(self.query("--minimize", "IAE_w", "--objective-over", "mean"), 2,
+                          "--objective-over belongs to --uncertain")
+
     def test_trade_off_along_a_bound(self):
         points = self.query("--minimize", "IAE_d", "--along", "Ms=1.5..4:6", "--json").json["points"]
         for point in points:
