@@ -46,7 +46,8 @@ class Chain {
     extra_ = extra;
     sparing_ = sparing && filtered && !kLag && extra == 0;
     tau_1_ = Lanes::from(pack.tau_1);
-    if (filtered) filter_.begin(pack.n, Lanes::from(pack.tau_f), kLag ? 0 : 1 + extra, 2 + extra);
+    level_ = kLag ? 0 : pack.slow_filter ? 1 : 1 + extra;
+    if (filtered) filter_.begin(pack.n, Lanes::from(pack.tau_f), level_, 2 + extra);
     if (kLag) plant_rate_ = Lanes(1.0) / tau_1_;
     gains_ = {-Lanes::from(pack.kappa), -Lanes::from(pack.integral_gain), -Lanes::from(pack.delta)};
     integral_ = z_ = z1_ = Lanes(0.0);
@@ -119,7 +120,7 @@ class Chain {
   template <int degree>
   void run_filtered(const Panel& panel, Derivatives h, const Series& h1, Output& z) {
     h = filter_.template all_but_last<degree>(panel.filter, panel.half, h);
-    Series& solved = kLag ? v1 : extra_ == 0 ? v2 : extra_ == 1 ? v3 : v4;
+    Series& solved = kLag ? v1 : level_ == 1 ? v2 : level_ == 2 ? v3 : v4;
     filter_.template eliminate<degree>(panel.filter, h, solved);
     if (sparing_) {
       pass<degree, kLag ? Mode::full : Mode::sparing>(panel, h, h1, z);
@@ -135,9 +136,14 @@ class Chain {
 
   /// v'' and above, before the pass writes where h'' and the third derivative are.
   template <int degree>
-  void find_higher(const Panel& panel, const Derivatives& h, Series& highest) {
+  void find_higher(const Panel& panel, const Derivatives& h, Series& solved) {
     Lanes above = 0.0;
-    for (int k = degree; k >= 0; --k) highest[k] = above = panel.filter.substitute(highest, k, above);
+    for (int k = degree; k >= 0; --k) solved[k] = above = panel.filter.substitute(solved, k, above);
+    if (level_ == 1) {
+      filter_.template set_above<degree>(v3, *h.at[2], v2);
+      if (extra_ > 1) filter_.template set_above<degree>(v4, *h.at[3], v3);
+      return;
+    }
     if (extra_ > 1) filter_.template set_below<degree>(v3, *h.at[3], v4);
     filter_.template set_below<degree>(v2, *h.at[2], v3);
   }
@@ -284,7 +290,7 @@ class Chain {
   }
 
   Filter filter_;
-  int extra_ = 0;
+  int extra_ = 0, level_ = 1;  ///< level_: of the filter
   Lanes tau_1_, plant_rate_;
   Gains gains_;
   bool sparing_ = false;

@@ -38,6 +38,7 @@ struct Pack {
   PlantKind plant;
   int n;  ///< filter order
   SetpointRun setpoint_run;
+  bool slow_filter;       ///< tau_f is no small number: engine/kernel/filter.inl
   double horizon;         ///< dead times
   Mesh mesh;              ///< while layers of the fast time constants matter, after every dead time anew
   int layered_intervals;  ///< so many dead times; from then on `graded` is 0

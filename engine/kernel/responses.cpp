@@ -21,6 +21,9 @@ static_assert(static_cast<int>(PlantKind::fotd) == static_cast<int>(Plant::fotd)
 /// Last coefficients of u and y, as a part of the signal, that count as died out.
 constexpr double kResolved = 1e-9;
 
+/// Dead times; far below where the filter's second formula is in danger, far above where the first loses digits.
+constexpr double kSlowFilter = 0.5;
+
 /// y_w = -(g0 int v + g1 v + g2 v') from the disturbance run's filtered error v.
 struct Gains {
   double g0, g1, g2;
@@ -73,12 +76,13 @@ double fastest(const LoopFamily& family, const Setting& s, SetpointRun run) {
 /// Settings that may lie side by side in a pack.
 struct Kind {
   SetpointRun run;
+  bool slow_filter;
   int terms;  ///< y_w is g0 int v and so many terms more: how many derivatives of v are asked for depends on it
   double horizon;  ///< dead times; of an automatic one as far as this attempt goes
   Resolution resolution;
 
   auto key() const {
-    return std::tuple(run, terms, horizon, resolution.mesh.graded, resolution.mesh.halved,
+    return std::tuple(run, slow_filter, terms, horizon, resolution.mesh.graded, resolution.mesh.halved,
                       resolution.layered_intervals, resolution.smooth_from);
   }
 };
@@ -95,7 +99,8 @@ Kind kind_of(const LoopFamily& family, const Setting& s, Horizon horizon) {
   const Gains g = setpoint_gains(family, s);
   const double dead_times = horizon.automatic ? kAutomaticHorizons.front() : horizon.dead_times;
   const int terms = g.g2 != 0 ? 2 : g.g1 != 0 ? 1 : 0;
-  return {run, terms, dead_times, first_resolution({family, s}, fastest(family, s, run))};
+  const bool slow_filter = family.n >= 1 && terms > 0 && s.tau_f >= kSlowFilter;
+  return {run, slow_filter, terms, dead_times, first_resolution({family, s}, fastest(family, s, run))};
 }
 
 void fill_lane(Pack& pack, std::size_t lane, const Loop& loop) {
@@ -120,6 +125,7 @@ Pack pack_for(const LoopFamily& family, const Kind& kind) {
   pack.plant = static_cast<PlantKind>(family.plant);
   pack.n = family.n;
   pack.setpoint_run = kind.run;
+  pack.slow_filter = kind.slow_filter;
   pack.horizon = kind.horizon;
   pack.mesh = kind.resolution.mesh;
   pack.layered_intervals = kind.resolution.layered_intervals;

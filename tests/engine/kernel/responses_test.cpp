@@ -89,6 +89,31 @@ TEST_P(Responses, AVanishingFilterTendsToTheIdealDerivative) {
     EXPECT_LT(error_of(filtered.measures[m], ideal.measures[m]), 1e-8) << to_string(m);
 }
 
+/// With tau_f above 1 rounding grew from dead time to dead time, where y_w takes derivatives of the filtered error.
+TEST_P(Responses, ASlowFilterOverALongTime) {
+  oracle::Random random(17);
+  const Horizon horizon = Horizon::fixed(300);
+  Worst worst;
+  for (int i = 0; i < 60; ++i) {
+    const auto plant = random.chance(0.6) ? Plant::dipdt : Plant::ipdt;
+    const LoopFamily family{plant, 1 + random.below(2), random.chance(0.5) ? Prefilter::none : Prefilter::full};
+    Loop loop{family, {}};
+    do {
+      loop.setting = oracle::random_controller(random, plant, 1);
+      loop.setting.tau_f = random.log_uniform(0.3, 5);
+      oracle::add_weights(random, family.prefilter, loop.setting);
+    } while (!is_stable(open_loop(loop)));
+    const auto fast = measure_one(*GetParam(), loop, horizon);
+    const auto slow = reference::measure(loop, horizon);
+    for (const Measure m : response_measures()) {
+      const double part_of = std::max({1e-3, std::abs(slow.measures[m]), variation_of_signal(slow.measures, m)});
+      if (std::isfinite(slow.measures[m])) worst.take(std::abs(fast.measures[m] - slow.measures[m]) / part_of, loop, m);
+    }
+    EXPECT_EQ(fast.status, slow.status) << simulate_command(loop);
+  }
+  EXPECT_LT(worst.error, 1e-8) << worst.where;
+}
+
 /// A setting's bits do not depend on what stands beside it.
 TEST_P(Responses, NeighboursDoNotMatter) {
   const kernel::Implementation& implementation = *GetParam();
