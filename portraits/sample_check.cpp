@@ -5,6 +5,7 @@
 #include <cmath>
 #include <future>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -26,14 +27,12 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 bool is_place(Measure m) { return m == Measure::Ms_omega || m == Measure::Mt_omega; }
 
-/// "TV2_uw", "u_max_w": of a signal. Integrals of the error and properties of the loop are judged by themselves.
-bool is_of_signal(Measure m) { return info(m).step != '-' && to_string(m).front() != 'I'; }
-
-Measure variation_of_signal(Measure m) {
+/// TV_uw of "TV2_uw" and "u_max_w". Integrals of the error, classes and properties of the loop are judged by themselves.
+std::optional<Measure> variation_of_signal(Measure m) {
   const std::string name(to_string(m));
-  const std::string signal =
-      name.starts_with("TV") ? name.substr(name.find('_') + 1) : name.substr(0, 1) + name.back();
-  return measure_named("TV_" + signal).value();
+  if (name.starts_with("TV")) return measure_named("TV_" + name.substr(name.find('_') + 1));
+  if (name.find("_max_") == std::string::npos) return std::nullopt;
+  return measure_named("TV_" + name.substr(0, 1) + name.back());
 }
 
 /// |1/(1 + L)| or |L/(1 + L)|.
@@ -59,7 +58,8 @@ double error_of(const Loop& loop, Measure m, double stored, const MeasureRow& tr
   if (is_place(m)) return error_of_place(loop, m, stored, truth[m]);
   const double off = std::abs(stored - truth[m]);
   if (!std::isfinite(off)) return kInfinite;
-  const double part_of = is_of_signal(m) ? truth[variation_of_signal(m)] : std::abs(truth[m]);
+  const std::optional<Measure> variation = variation_of_signal(m);
+  const double part_of = variation ? truth[*variation] : 0;
   return resolution(loop) * off / std::max({kSmall, part_of, std::abs(truth[m])});
 }
 
@@ -90,13 +90,13 @@ Block stored_block(const ColumnSource& source, std::span<const std::uint64_t> nu
 }
 
 void simulate(const Grid& grid, Block& block, const SampleRequest& request, std::uint64_t before) {
-  const bool noise = std::find(grid.measures.begin(), grid.measures.end(), Measure::noise_gain) != grid.measures.end();
+  const Extras extras = extras_for(grid.measures, grid.sampling);
   std::atomic<std::size_t> next = 0;
   const auto work = [&](bool tells) {
     for (std::size_t i = next++; i < block.numbers.size(); i = next++) {
       const Setting setting = setting_at(grid, block.numbers[i]);
-      measure_settings(Method::reference, grid.family, grid.horizon, noise ? grid.sampling : std::nullopt,
-                       {&setting, 1}, {&block.truth[i], 1});
+      measure_settings(Method::reference, grid.family, grid.horizon, extras, {&setting, 1},
+                       {&block.truth[i], 1});
       if (tells && request.progress) request.progress(before + i);
     }
   };
@@ -156,7 +156,7 @@ SampleReport check_sample(const ColumnSource& source, const SampleRequest& reque
   const double rounding = grid.precision == Precision::real32 ? kSingle : 0;
   for (const Measure measure : grid.measures)
     report.measures.push_back(
-        {.measure = measure, .allowed = (is_of_signal(measure) ? kAllowedOfVariation : kAllowed) + rounding});
+        {.measure = measure, .allowed = (variation_of_signal(measure) ? kAllowedOfVariation : kAllowed) + rounding});
   for (std::size_t done = 0; done < numbers.size(); done += kBlock) {
     const std::size_t count = std::min(kBlock, numbers.size() - done);
     Block block = stored_block(source, std::span(numbers).subspan(done, count));
