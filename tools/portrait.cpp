@@ -107,6 +107,7 @@ int run(int argc, char** argv) {
   add_verify(app, invocation);
   add_merge(app, invocation);
   add_query(app, invocation);
+  add_export(app, invocation);
   add_simulate(app, invocation);
   add_characteristic(app, invocation);
   add_plot(app, invocation);

@@ -56,6 +56,13 @@ wait $sweep
 """
 
 
+STEPS = """#!/bin/bash
+#SBATCH --array=1-2 --ntasks=2 --overcommit --output={folder}/steps-%a.log
+cd {folder}
+srun --ntasks=2 --overcommit "{program}" sweep g.toml -o steps.h5 --resume --threads 1 --quiet
+"""
+
+
 def free_port():
     with socket.socket() as one:
         one.bind(("127.0.0.1", 0))
@@ -143,9 +150,21 @@ class OnACluster(ProgramTest):
             cluster.wait_for(lambda: not cluster.command("squeue", "-h", "-j", job, check=False).strip(), "the array", 300)
             states = cluster.command("scontrol", "show", "job", job)
             self.assertEqual(states.count("JobState=COMPLETED"), 3, states)
+            self.run_steps(cluster)
         finally:
             cluster.close()
         self.check_merged()
+
+    def run_steps(self, cluster):
+        """srun within an array: a shard for each task of each step."""
+        script = self.write("steps.sh", STEPS.format(folder=self.folder, program=program.PROGRAM))
+        job = cluster.command("sbatch", "--parsable", str(script)).strip()
+        cluster.wait_for(lambda: not cluster.command("squeue", "-h", "-j", job, check=False).strip(), "the steps", 300)
+        logs = "".join(path.read_text(errors="replace") for path in self.folder.glob("steps-*.log"))
+        stems = sorted(path.name for path in (self.folder / "steps.h5.run").glob("*.data"))
+        self.assertEqual(stems, [f"{number}-of-4.data" for number in (1, 2, 3, 4)], logs)
+        self.assertEqual(self.run_program("merge", "steps.h5.run", "-o", "steps.h5", "--quiet").code, 0)
+        self.assertEqual(self.run_program("verify", "steps.h5").out.replace("steps.h5", "g.h5"), self.whole)
 
     @unittest.skipIf(missing("mpirun"), "mpirun is not installed")
     def test_mpirun(self):

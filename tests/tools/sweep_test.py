@@ -143,6 +143,30 @@ class Sweep(ProgramTest):
         whole = self.run_program("verify", "whole.h5").out.replace("whole.h5", "g.h5")
         self.assertEqual(self.run_program("verify", "g.h5").out, whole)
 
+    def test_shards_from_the_environment(self):
+        self.write("g.toml", SMALL_GRID)
+        clean = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM_", "PMI_", "OMPI_"))}
+        array = {"SLURM_ARRAY_TASK_ID": "1", "SLURM_ARRAY_TASK_MIN": "0", "SLURM_ARRAY_TASK_COUNT": "2"}
+        srun = {"SLURM_PROCID": "2", "SLURM_STEP_NUM_TASKS": "4"}
+        pmi = {"PMI_RANK": "0", "PMI_SIZE": "2"}
+        openmpi = {"OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_SIZE": "3"}
+        batch = {"SLURM_PROCID": "0", "SLURM_NTASKS": "8"}  # of sbatch, in no step: one process for all
+
+        def sweep(environment, *options):
+            return self.run_program("sweep", "g.toml", "-o", "g.h5", "--force", *options, env={**clean, **environment})
+
+        for environment, shard in ((srun, "3/4"), ({**srun, **array}, "7/8"), (pmi, "1/2"), ({**pmi, **array}, "3/4"),
+                                   ({**openmpi, **srun, **pmi}, "2/3"), ({**pmi, "SLURM_PROCID": "0", "SLURM_STEP_NUM_TASKS": "1"}, "1/2"),
+                                   (batch, None), ({"PMI_RANK": "3"}, None)):
+            self.assertEqual(sweep(environment, "--json").json.get("shard"), shard, environment)
+        self.assertEqual(sweep(srun, "--json", "--shard", "2/5").json["shard"], "2/5")
+        for environment, message in (
+                ({"PMI_RANK": "2", "PMI_SIZE": "2"}, "the rank in the environment must be I/N with 1 <= I <= N <= 1000000"),
+                ({"PMI_RANK": "one", "PMI_SIZE": "2"}, "the environment says no number in PMI_RANK: give --shard I/N"),
+                ({"SLURM_PROCID": "1", "SLURM_STEP_NUM_TASKS": "0"}, "the rank in the environment must be I/N with 1 <= I <= N <= 1000000"),
+                ({**array, "SLURM_ARRAY_TASK_ID": "7"}, "the tasks of this array are not evenly numbered: give --shard I/N")):
+            self.assert_fails(sweep(environment), 2, message)
+
     def test_wrong_shards(self):
         self.write("g.toml", SMALL_GRID)
         for text in ("0/3", "4/3", "1", "a/b", "1/0"):
