@@ -116,7 +116,7 @@ void write(const std::filesystem::path& path, const Grid& grid) {
   writer.publish({});
 }
 
-constexpr std::array<const char*, 4> kWhere = {"TV2_uw <= 0.02", "TV0_yw <= 0.01", "Ms <= 1.33", "u_max_w <= 0.2"};
+constexpr std::array<const char*, 4> kWhere = {"TV2_uw <= 0.02", "TV0_yw <= 0.01", "Ms <= 1.287", "u_max_w <= 0.2"};
 constexpr const char* kMinimize = "IAE_w + IAE_d";
 
 Question question() {

@@ -10,7 +10,7 @@ import numpy
 def ask(path):
     with h5py.File(path, "r") as file:
         keep = file["status"][()] == 1
-        for name, bound in (("TV2_uw", 0.02), ("TV0_yw", 0.01), ("Ms", 1.33), ("u_max_w", 0.2)):
+        for name, bound in (("TV2_uw", 0.02), ("TV0_yw", 0.01), ("Ms", 1.287), ("u_max_w", 0.2)):
             keep &= file[name][()] <= bound
         objective = file["IAE_w"][()] + file["IAE_d"][()]
     return int(keep.sum()), float(numpy.where(keep, objective, numpy.inf).min())

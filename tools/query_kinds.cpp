@@ -96,11 +96,42 @@ std::string correlations_text(const Region& region) {
     for (std::size_t k = j + 1; k < axes; ++k) {
       const double r = region.correlation[j * axes + k];
       if (std::abs(r) >= 0.5)
-        text += fmt::format("  {} and {} {} together (correlation {:.2f})\n", to_string(region.axes[j].parameter),
+        text += fmt::format("  {} and {} {} (correlation {:.2f})\n", to_string(region.axes[j].parameter),
                             to_string(region.axes[k].parameter),
-                            r > 0 ? "rise" : "rise and fall against each other,", r);
+                            r > 0 ? "rise together" : "go against each other", r);
     }
   return text;
+}
+
+constexpr std::size_t kPiecesShown = 5;
+
+/// "  2 separate pieces\n    530 settings: kappa 0.1..0.2, ...": nothing when all hangs together.
+std::string pieces_text(const Grid& grid, const std::vector<Piece>& pieces) {
+  if (pieces.size() < 2) return "  one piece: every setting is reached by steps along the axes\n";
+  std::string text = fmt::format("  {} separate pieces (steps along one axis at a time)\n", pieces.size());
+  for (std::size_t i = 0; i < std::min(pieces.size(), kPiecesShown); ++i) {
+    text += fmt::format("    {} setting{}:", pieces[i].settings, pieces[i].settings == 1 ? "" : "s");
+    for (std::size_t k = 0; k < grid.axes.size(); ++k) {
+      const Axis& axis = grid.axes[k];
+      const std::string first = number_text(axis[pieces[i].first[k]]), last = number_text(axis[pieces[i].last[k]]);
+      text += fmt::format("{} {} {}", k == 0 ? "" : ",", axis.name(), first == last ? first : first + ".." + last);
+    }
+    text += "\n";
+  }
+  if (pieces.size() > kPiecesShown) text += fmt::format("    and {} smaller ones\n", pieces.size() - kPiecesShown);
+  return text;
+}
+
+Json json_pieces(const Grid& grid, const std::vector<Piece>& pieces) {
+  Json list = Json::array();
+  for (const Piece& piece : pieces) {
+    Json axes = Json::object();
+    for (std::size_t k = 0; k < grid.axes.size(); ++k)
+      axes[std::string(grid.axes[k].name())] = {{"from", json_number(grid.axes[k][piece.first[k]])},
+                                                {"to", json_number(grid.axes[k][piece.last[k]])}};
+    list.push_back({{"settings", piece.settings}, {"axes", axes}});
+  }
+  return list;
 }
 
 std::string region_text(const Grid& grid, const Region& region) {
@@ -116,7 +147,7 @@ std::string region_text(const Grid& grid, const Region& region) {
                         : extent.at_upper_edge                       ? ", cut off by the grid's upper end"
                                                                      : "");
   }
-  return text + correlations_text(region);
+  return text + correlations_text(region) + pieces_text(grid, region.pieces);
 }
 
 Json json_region(const Grid& grid, const Region& region) {
@@ -131,7 +162,11 @@ Json json_region(const Grid& grid, const Region& region) {
   }
   Json correlation = Json::array();
   for (const double value : region.correlation) correlation.push_back(json_number(value));
-  return {{"admissible", region.admissible}, {"total", region.total}, {"axes", axes}, {"correlation", correlation}};
+  return {{"admissible", region.admissible},
+          {"total", region.total},
+          {"axes", axes},
+          {"correlation", correlation},
+          {"pieces", json_pieces(grid, region.pieces)}};
 }
 
 // ---------------------------------------------------------------- one setting

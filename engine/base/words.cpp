@@ -39,6 +39,8 @@ std::optional<std::string_view> nearest_word(std::string_view word, const std::v
   std::optional<std::string_view> nearest;
   std::size_t smallest = furthest + 1;
   for (const std::string_view candidate : known) {
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    if (longer - std::min(word.size(), candidate.size()) >= smallest) continue;  // no distance is less
     const std::size_t distance = edit_distance(word, candidate);
     if (distance >= smallest) continue;
     smallest = distance;

@@ -18,7 +18,7 @@ Sheet sheet_of(const ColumnSource& source, const Conditions& conditions) {
 
 /// Whole numbers, so that sums do not depend on who added them up.
 struct RegionTally {
-  explicit RegionTally(const Grid& grid) : products(grid.axes.size() * grid.axes.size()) {
+  explicit RegionTally(const Grid& grid) : products(grid.axes.size() * grid.axes.size()), runs(grid) {
     for (const Axis& axis : grid.axes) counts.emplace_back(axis.size());
   }
   void merge(const RegionTally& other) {
@@ -27,9 +27,11 @@ struct RegionTally {
     for (std::size_t k = 0; k < counts.size(); ++k)
       for (std::size_t i = 0; i < counts[k].size(); ++i) counts[k][i] += other.counts[k][i];
     for (std::size_t k = 0; k < products.size(); ++k) products[k] += other.products[k];
+    runs.merge(other.runs);
   }
-  void add(const std::vector<std::uint64_t>& at) {
+  void add(std::uint64_t number, const std::vector<std::uint64_t>& at) {
     ++admissible;
+    runs.add(number);
     for (std::size_t k = 0; k < at.size(); ++k) {
       ++counts[k][at[k]];
       for (std::size_t j = 0; j < at.size(); ++j) products[k * at.size() + j] += at[k] * at[j];
@@ -40,6 +42,7 @@ struct RegionTally {
   std::uint64_t admissible = 0;
   std::vector<std::vector<std::uint64_t>> counts;  ///< by axis and value
   std::vector<std::uint64_t> products;             ///< sums of products of indices
+  SettingRuns runs;
 };
 
 AxisExtent extent_of(const Axis& axis, std::vector<std::uint64_t> counts) {
@@ -141,16 +144,19 @@ class Nearing {
 Region region(const ColumnSource& source, const Conditions& conditions) {
   const Sheet sheet = sheet_of(source, conditions);
   const Admission admission(sheet, conditions.where);
-  const RegionTally tally = share(sheet, conditions.threads, sheet.rows().tile_count(), RegionTally(source.grid()),
-                                  [&](RegionTally& t, TilePage& page, std::uint64_t tile) {
-                                    thread_local Admission::Glance glance;
-                                    thread_local std::vector<std::size_t> chosen;
-                                    if (!admission.glance(tile, t.counted, glance)) return;
-                                    admission.choose(tile, glance, page, t.counted, chosen);
-                                    for (const std::size_t i : chosen)
-                                      t.add(coordinates(source.grid(), page.range().first + i));
-                                  });
-  Region found{tally.admissible, tally.counted.total, tally.counted.left_out, {}, correlation_of(tally)};
+  const RegionTally tally =
+      share(sheet, conditions.threads, sheet.rows().tile_count(), RegionTally(source.grid()),
+            [&](RegionTally& t, TilePage& page, std::uint64_t tile) {
+              thread_local Admission::Glance glance;
+              thread_local std::vector<std::size_t> chosen;
+              if (!admission.glance(tile, t.counted, glance)) return;
+              admission.choose(tile, glance, page, t.counted, chosen);
+              for (const std::size_t i : chosen)
+                t.add(page.range().first + i, coordinates(source.grid(), page.range().first + i));
+            });
+  Region found{tally.admissible,       tally.counted.total,
+               tally.counted.left_out, {},
+               correlation_of(tally),  pieces_of(source.grid(), tally.runs.runs())};
   for (std::size_t k = 0; k < tally.counts.size(); ++k)
     found.axes.push_back(extent_of(source.grid().axes[k], tally.counts[k]));
   return found;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "portraits/query/measured.h"
+#include "portraits/query/pieces.h"
 #include "portraits/query/query.h"
 
 namespace portrait {
@@ -28,6 +29,7 @@ struct Region {
   /// How positions along two axes go together over the region, -1 .. 1: along a ridge, far from 0. NaN where one of them
   /// does not vary. Row-major, axes x axes.
   std::vector<double> correlation;
+  std::vector<Piece> pieces;  ///< the largest first
 };
 
 /// Throws InputError when the conditions do not fit.

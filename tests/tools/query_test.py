@@ -159,6 +159,10 @@ class Query(ProgramTest):
         self.assertRegex(result.out, r"^\d+ of 27 settings are admissible")
         answer = self.query("--region", "--json").json
         self.assertEqual(sum(answer["axes"]["kappa"]["counts"]), answer["admissible"])
+        self.assertEqual(sum(piece["settings"] for piece in answer["pieces"]), answer["admissible"])
+        self.assertIn("  one piece: ", self.query("--region", "--where", "kappa >= 0.2").out)
+        apart = self.query("--region", "--where", "(kappa - 0.16)^2 >= 1e-6")
+        self.assertRegex(apart.out, r"\n  \d separate pieces \(steps along one axis at a time\)\n    \d+ settings: ")
 
     def test_uncertain_plant(self):
         asked = ("--minimize", "IAE_d", "--where", "Ms <= 4", "--uncertain", "K=1.9..2.1,Td=0.48..0.52")

@@ -1,5 +1,6 @@
 /// Front, region, nearest setting and trade-off over random portraits, against plain loops.
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -109,6 +110,56 @@ RC_GTEST_PROP(Region, is_what_a_plain_loop_counts, ()) {
     RC_ASSERT(found.axes[k].counts == counts);
     if (found.axes[k].first) RC_ASSERT(counts[*found.axes[k].first] > 0u);
     RC_ASSERT(found.axes[k].at_lower_edge == (counts.front() > 0));
+  }
+}
+
+/// From setting to setting.
+std::vector<std::vector<std::uint64_t>> searched_pieces(const Grid& grid,
+                                                        const std::vector<std::uint64_t>& admissible) {
+  std::set<std::uint64_t> left(admissible.begin(), admissible.end());
+  std::vector<std::vector<std::uint64_t>> pieces;
+  while (!left.empty()) {
+    std::vector<std::uint64_t> piece = {*left.begin()};
+    left.erase(left.begin());
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      for (const std::uint64_t other : std::vector<std::uint64_t>(left.begin(), left.end())) {
+        std::uint64_t apart = 0;
+        const auto a = coordinates(grid, piece[i]), b = coordinates(grid, other);
+        for (std::size_t k = 0; k < a.size(); ++k) apart += a[k] > b[k] ? a[k] - b[k] : b[k] - a[k];
+        if (apart != 1) continue;
+        piece.push_back(other);
+        left.erase(other);
+      }
+    std::sort(piece.begin(), piece.end());
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+RC_GTEST_PROP(Region, pieces_are_what_a_search_finds, ()) {
+  const Drawn drawn;
+  const Grid& grid = drawn.source.grid();
+  std::vector<std::uint64_t> admissible = drawn.admissible();
+  RC_PRE(admissible.size() < 400);
+  std::sort(admissible.begin(), admissible.end());
+  auto expected = searched_pieces(grid, admissible);
+  std::stable_sort(expected.begin(), expected.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  const Region found = region(drawn.source, drawn.conditions());
+  RC_ASSERT(found.pieces.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Piece& piece = found.pieces[i];
+    RC_ASSERT(piece.settings == expected[i].size());
+    RC_ASSERT(piece.lowest == expected[i].front());
+    for (std::size_t k = 0; k < grid.axes.size(); ++k) {
+      std::uint64_t least = ~std::uint64_t{0}, most = 0;
+      for (const std::uint64_t number : expected[i]) {
+        least = std::min(least, coordinates(grid, number)[k]);
+        most = std::max(most, coordinates(grid, number)[k]);
+      }
+      RC_ASSERT(piece.first[k] == least);
+      RC_ASSERT(piece.last[k] == most);
+    }
   }
 }
 
