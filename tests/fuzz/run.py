@@ -14,7 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-import corpus
+sys.dont_write_bytecode = True
+import corpus  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 
