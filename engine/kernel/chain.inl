@@ -51,6 +51,35 @@ class Chain {
     if (kLag) plant_rate_ = Lanes(1.0) / tau_1_;
     gains_ = {-Lanes::from(pack.kappa), -Lanes::from(pack.integral_gain), -Lanes::from(pack.delta)};
     integral_ = z_ = z1_ = Lanes(0.0);
+    Series* const all[] = {&v, &v1, &v2, &v3, &v4, &sum};
+    for (Series* const f : all) set_zero(*f);
+    sum_rest = v_rest = v1_rest = v2_rest = u1_rest = Lanes(0.0);
+    of_sum = {};
+  }
+
+  /// A panel before anything has reached the controller: u = 0, and the plant answers to d = `load` alone, which is
+  /// already added where u lies among the derivatives of y.
+  void run_plant_alone(const Panel& panel, Output& z) {
+    Series* const all[] = {&z.y, &z.y1, &z.y2, &z.y3};
+    for (Series* const f : all) set_zero(*f);
+    const Lanes half = panel.half, length = 2 * panel.half;
+    if constexpr (kind == kernel::PlantKind::dipdt) {
+      // z' = z1 + load t, z = z0 + z1 t + load t^2/2, from the panel's start.
+      z.y2[0] = load;
+      z.y1[1] = half * load, z.y1[0] = z1_ + z.y1[1];
+      z.y[2] = half * Lanes(1.0 / 3) * z.y1[1], z.y[1] = half * z.y1[0], z.y[0] = z_ + (z.y[1] - z.y[2]);
+      z_ = mul_add(length, z.y1[0], z_);
+      z1_ = mul_add(length, load, z1_);
+      z.sum_up();
+    } else if constexpr (kind == kernel::PlantKind::ipdt) {
+      z.y1[0] = load;
+      z.y[1] = half * load, z.y[0] = z_ + z.y[1];
+      z_ = mul_add(length, load, z_);
+      z.sum_up();
+    } else {
+      set_zero(z.u), set_zero(z.u1);
+      step_lag<kDegree>(panel, z);
+    }
   }
 
   /// The first panel on which h is not 0: h may jump at its start.

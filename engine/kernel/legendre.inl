@@ -256,16 +256,20 @@ inline void set_cut_off(Series& to, const Series& f, double end) {
 struct Lag {
   Lanes lower[kTerms], inverse[kTerms], upper[kTerms];
 
+  /// A pivot is the ratio of two determinants, D_j = tau D_{j-1} + h^2/(4 (4 j^2 - 1)) D_{j-2}: none has to wait for another
+  /// one's division. They are taken of the system by tau + h/2, so that none is too large for a number.
   void prepare(Lanes tau, double half_length) {
-    Lanes pivot = tau + Lanes(half_length);
-    inverse[0] = Lanes(1.0) / pivot;
-    upper[0] = Lanes(half_length / 3) * inverse[0];
+    const Lanes scale = Lanes(1.0) / (tau + Lanes(half_length)), diagonal = tau * scale;
+    const Lanes coupling = (Lanes(half_length) * scale) * (Lanes(half_length) * scale);
+    Lanes below = 1.0, here = 1.0;  // D_{j-2}, D_{j-1}
+    inverse[0] = scale;
     for (int j = 1; j < kTerms; ++j) {
-      lower[j] = Lanes(half_length / (2 * j - 1)) * inverse[j - 1];
-      pivot = mul_add(lower[j], Lanes(half_length / (2 * j + 1)), tau);
-      inverse[j] = Lanes(1.0) / pivot;
-      upper[j] = Lanes(half_length / (2 * j + 3)) * inverse[j];
+      const Lanes next = mul_add(diagonal, here, coupling * Lanes(1.0 / (4.0 * j * j - 1)) * below);
+      inverse[j] = scale * (here / next);
+      below = here, here = next;
     }
+    for (int j = 0; j < kTerms; ++j) upper[j] = Lanes(half_length / (2 * j + 3)) * inverse[j];
+    for (int j = 1; j < kTerms; ++j) lower[j] = Lanes(half_length / (2 * j - 1)) * inverse[j - 1];
   }
 
   /// Forward elimination for the input e from v(start).

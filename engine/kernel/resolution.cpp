@@ -21,22 +21,28 @@ int rounded_up(double intervals) {
   return kAllIntervals;
 }
 
-/// Last coefficient of e^{-t/T} as one series over a dead time: that of the modified Bessel function I_12(z) e^{-z},
-/// z = 1/(2 T), to a factor of about 2.
-double last_coefficient(double T) {
+/// ln of the last coefficient of e^{-t/T} as one series over a dead time: that of the modified Bessel function
+/// I_12(z) e^{-z}, z = 1/(2 T), to a factor of about 2.
+double log_of_last_coefficient(double T) {
   const double z = 0.5 / T;
-  return 12.5 / z * std::exp(-65 / z);
+  return std::log(12.5 / z) - 65 / z;
 }
 
 /// Dead times until the layers of T have faded. At t = 0 there is none yet, and the first is of full size.
 int layered_intervals(const Loop& loop, double T) {
+  static const double log_of_faded = std::log(kFaded);
   const double gain_squared = gain_squared_at(loop, 1 / T);
   if (gain_squared >= 0.8) return kAllIntervals;
-  return rounded_up(2 + std::max(0.0, 2 * std::log(kFaded / last_coefficient(T)) / std::log(gain_squared)));
+  const double log_of_excess = log_of_last_coefficient(T) - log_of_faded;
+  return rounded_up(2 + std::max(0.0, -2 * log_of_excess / std::log(gain_squared)));
 }
 
 /// The first panel of a graded dead time is at most 4 T long.
-int grading_for(double T) { return static_cast<int>(std::clamp(std::ceil(-std::log2(4 * T)), 0.0, 20.0)); }
+int grading_for(double T) {
+  int exponent = 0;
+  std::frexp(4 * T, &exponent);  // 4 T lies in [2^(exponent - 1), 2^exponent)
+  return std::clamp(1 - exponent, 0, 20);
+}
 
 /// Last coefficients of cos(omega t) as one series of degree 8 over a dead time, as the meters take them: those of the
 /// spherical Bessel functions, 17 j_8(z) + 15/8 j_7(z), z = omega/2.
@@ -45,18 +51,33 @@ double smooth_tail(double omega) {
   return std::min(1.0, z7 * (9.3e-7 + 4.9e-7 * z));
 }
 
+/// What |L(j omega)|^2 may be so that the tail there fades below kSmall within each of kIntervalCounts.
+struct SmoothLimits {
+  static constexpr std::array kOmegas = {0.75, 1.5, 3.0, 8.0};
+  static constexpr double kSmall = 5e-10;
+  double of[kOmegas.size()][kIntervalCounts.size()];
+
+  SmoothLimits() {
+    for (std::size_t i = 0; i < kOmegas.size(); ++i)
+      for (std::size_t j = 0; j < kIntervalCounts.size(); ++j) of[i][j] = limit(smooth_tail(kOmegas[i]), kIntervalCounts[j]);
+  }
+
+  /// The first two dead times see no loop yet; a round takes two.
+  static double limit(double tail, int intervals) {
+    if (tail <= kSmall) return kInf;
+    return intervals == 2 ? 0 : std::min(0.9, std::pow(kSmall / tail, 2.0 / (intervals - 2)));
+  }
+};
+
 /// Dead times until all parts of a response have faded that a series of the lower degree does not hold.
 int smooth_from(const Loop& loop) {
-  constexpr double kSmall = 5e-10;
-  double intervals = 0;
-  for (const double omega : {0.75, 1.5, 3.0, 8.0}) {
-    const double tail = smooth_tail(omega);
-    if (tail <= kSmall) continue;
-    const double gain_squared = gain_squared_at(loop, omega);
-    if (gain_squared >= 0.9) return kAllIntervals;
-    intervals = std::max(intervals, 2 * std::log(kSmall / tail) / std::log(gain_squared));
+  static const SmoothLimits limits;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < limits.kOmegas.size(); ++i) {
+    const double gain_squared = gain_squared_at(loop, limits.kOmegas[i]);
+    while (count < kIntervalCounts.size() && gain_squared > limits.of[i][count]) ++count;
   }
-  return rounded_up(2 + intervals);
+  return count < kIntervalCounts.size() ? kIntervalCounts[count] : kAllIntervals;
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ class Run {
     chain_.load = disturbed ? 1.0 : 0.0;
     active_ = quiet_ = Mask::from(kAllLanes);
     set_mesh(pack.mesh);
+    if (sees_nothing_at_first()) return;
     for (int p = 0; p < panel_count_; ++p) outputs_[p].begin();
     for (int p = 0; p < panel_count_; ++p) watch_output<kDegree>(0, p, false);
   }
@@ -44,7 +45,8 @@ class Run {
   void to_horizon() {
     // u_w is seen one dead time late.
     const int simulated = span_.intervals + (both_ ? 1 : 0);
-    for (int k = 0; k < simulated && any(active_); ++k) {
+    if (sees_nothing_at_first()) first_interval();
+    for (int k = sees_nothing_at_first() ? 1 : 0; k < simulated && any(active_); ++k) {
       if (k == pack_.layered_intervals) leave_layers();
       if (k == pack_.smooth_from) begin_smooth();
       k < pack_.smooth_from ? interval<kDegree>(k) : interval<kSmoothDegree>(k);
@@ -61,6 +63,21 @@ class Run {
 
   /// Whether it is asked after this interval which lanes are at rest.
   static bool looks(int k) { return k % 8 == 7; }
+
+  /// On the first dead time of a run that d drives the controller is at rest, and of all meters only two have something to do.
+  bool sees_nothing_at_first() const { return disturbed && span_.late_from > 1; }
+
+  /// On the second dead time the controller sees the plant's answer to a step: y and y' are positive, and so are, behind the
+  /// lags of the filter, v and v'; with an integrator in the plant also y'' and v''. No gain is negative.
+  Course course_of_derived(int k) const {
+    const bool rises = disturbed && both_ && derived_.is_scaled() && k == 1;
+    return rises ? Course::rises : Course::open;
+  }
+  Course course_of_input(int k) const {
+    return disturbed && plant != PlantKind::fotd && k == 1 ? Course::falls : Course::open;
+  }
+  /// One dead time before.
+  Course course_of_output(int k) const { return disturbed && k == 1 ? Course::rises : Course::open; }
 
   StepMeters& own() { return disturbed ? d_ : w_; }
 
@@ -112,6 +129,16 @@ class Run {
     active_ = but_not(active_, quiet_);
   }
 
+  /// y_w is still 0, y_d begins.
+  void first_interval() {
+    for (int p = 0; p < panel_count_; ++p) {
+      chain_.run_plant_alone(panels_[p], outputs_[p]);
+      watch_output<kDegree>(1, p, false);
+      if (both_) w_.e.watch({chain_.sum, Lanes(0.0), chain_.of_sum}, panels_[p].start + panels_[p].half, panels_[p].half, active_);
+    }
+    dead_times = Lanes(1.0);
+  }
+
   template <int degree>
   void interval(int k) {
     quiet_ = active_;
@@ -136,16 +163,15 @@ class Run {
 
   template <int degree>
   __attribute__((noinline)) void watch(int k, int p) {
-    const bool begun = k >= 2 || (k == 1 && p > 0);
-    if (!kInputJumps && begun && k + 1 < span_.late_from && !looks(k)) return watch_inside<degree>(k, p);
+    if (!kInputJumps && k >= 2 && k + 1 < span_.late_from && !looks(k)) return watch_inside<degree>(k, p);
     chain_.template complete_input<degree>(panels_[p], outputs_[p]);
     watch_output<degree>(k + 1, p, looks(k));
     if (both_) {
-      watch_signal_of<degree>(w_.y, derived_output_signal(), k, p, looks(k), false);
+      watch_signal_of<degree>(w_.y, derived_output_signal(), k, p, looks(k), false, course_of_derived(k));
       watch_error_of(w_.e, derived_error(), k, p);
-      watch_signal_of<degree>(w_.u, derived_input_signal(), k - 1, p, looks(k), kInputJumps);
+      watch_signal_of<degree>(w_.u, derived_input_signal(), k - 1, p, looks(k), kInputJumps, course_of_derived(k));
     }
-    watch_signal_of<degree>(own().u, input_signal(p), k, p, looks(k), kInputJumps);
+    watch_signal_of<degree>(own().u, input_signal(p), k, p, looks(k), kInputJumps, course_of_input(k));
   }
 
   /// `begins`: up to here the controller saw nothing.
@@ -267,13 +293,16 @@ class Run {
   /// y, and e = 0 - y or 1 - y.
   template <int degree>
   void watch_output(int k, int p, bool look) {
-    watch_signal_of<degree>(own().y, output_signal(p), k, p, look, false);
+    watch_signal_of<degree>(own().y, output_signal(p), k, p, look, false, course_of_output(k));
     watch_error_of(own().e, output_error(p), k, p);
   }
 
   template <int degree>
-  void watch_signal_of(ShapeMeter& meter, const Signal& s, int k, int p, bool look, bool may_jump) {
-    if (reaches(k, p)) watch_signal<degree>(meter, s, place(k, p, look), may_jump, active_, quiet_);
+  void watch_signal_of(ShapeMeter& meter, const Signal& s, int k, int p, bool look, bool may_jump, Course course) {
+    if (!reaches(k, p)) return;
+    Place at = place(k, p, look);
+    at.course = course;
+    watch_signal<degree>(meter, s, at, may_jump, active_, quiet_);
   }
   void watch_error_of(ErrorMeter& meter, const Error& e, int k, int p) {
     if (reaches(k, p)) watch_error(meter, e, place(k, p, false), active_);

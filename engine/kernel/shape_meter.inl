@@ -18,6 +18,9 @@ inline constexpr double kNegligible = 1e-14;
 template <int degree>
 inline constexpr double kBeforeLast = degree == kDegree ? 1 : 0.125;
 
+/// Which way a signal goes on a panel, where it is known before anyone looks.
+enum class Course { open, rises, falls };
+
 class ShapeMeter {
  public:
   bool is_late = false;  ///< the last dead time has begun
@@ -71,8 +74,11 @@ class ShapeMeter {
   }
 
   template <int degree>
-  void watch(const Signal& s, double half, Mask active) {
-    take_in(see<degree>(s, active), s, half, bits(active));
+  void watch(const Signal& s, double half, Mask active, Course course = Course::open) {
+    const unsigned on = bits(active);
+    Sight sight = see<degree>(s, active);
+    if (course != Course::open) sight = {on, course == Course::falls ? on : 0};
+    take_in(sight, s, half, on);
   }
 
   /// The value at an edge of a panel.

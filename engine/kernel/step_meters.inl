@@ -26,6 +26,7 @@ struct Place {
   double middle, half, end;
   bool first_of_all, first_of_interval, last_of_interval, last_of_all, late;
   bool look;  ///< whether the signals are quiet is asked
+  Course course = Course::open;
   bool is_cut() const { return end < 1; }
 };
 
@@ -64,7 +65,7 @@ inline void watch_cut(ShapeMeter& meter, const Signal& s, const Place& at, Mask 
   set_cut_off(slope, s.slope, at.end);
   const Signal cut{f, slope, f[0] + (s.mean - s.f[0]), rest_bound(slope, 1)};
   if (at.first_of_interval) meter.enter(cut.start(), active);
-  meter.watch<kDegree>(cut, 0.5 * at.half * (at.end + 1), active);
+  meter.watch<kDegree>(cut, 0.5 * at.half * (at.end + 1), active, at.course);
   meter.pass(cut.end(), active);
 }
 
@@ -78,7 +79,7 @@ __attribute__((noinline)) void watch_signal(ShapeMeter& meter, const Signal& s, 
   } else {
     if (at.first_of_all || (at.first_of_interval && may_jump)) meter.enter(s.start(), active);
     if (at.first_of_interval && at.late) meter.pass(s.start(), active);
-    meter.watch<degree>(s, at.half, active);
+    meter.watch<degree>(s, at.half, active, at.course);
     if (at.late || at.last_of_all || (at.last_of_interval && (may_jump || at.look))) meter.pass(s.end(), active);
   }
   if (at.last_of_all) meter.finish(active);

@@ -86,11 +86,10 @@ double gain_squared_at(const Loop& loop, double omega) {
   const Setting& s = loop.setting;
   const auto [n0, n1, n2] = controller_numerator(s);
   const double x = omega * omega, real = n0 - n2 * x;
-  double gain = real * real + n1 * n1 * x;
-  for (int i = 0; i < integrators_of(loop); ++i) gain /= x;
-  if (loop.family.plant == Plant::fotd) gain /= 1 + s.tau_1 * s.tau_1 * x;
-  for (int i = 0; i < loop.family.n; ++i) gain /= 1 + s.tau_f * s.tau_f * x;
-  return gain;
+  double denominator = loop.family.plant == Plant::fotd ? 1 + s.tau_1 * s.tau_1 * x : 1;
+  for (int i = 0; i < integrators_of(loop); ++i) denominator *= x;
+  for (int i = 0; i < loop.family.n; ++i) denominator *= 1 + s.tau_f * s.tau_f * x;
+  return (real * real + n1 * n1 * x) / denominator;
 }
 
 OpenLoop open_loop(const std::vector<Polynomial>& numerator, const std::vector<Polynomial>& denominator,
