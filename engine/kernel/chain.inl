@@ -54,7 +54,7 @@ class Chain {
     Series* const all[] = {&v, &v1, &v2, &v3, &v4, &sum};
     for (Series* const f : all) set_zero(*f);
     sum_rest = v_rest = v1_rest = v2_rest = u1_rest = Lanes(0.0);
-    of_sum = {};
+    of_sum = {Lanes(0.0), Lanes(0.0)};
   }
 
   /// A panel before anything has reached the controller: u = 0, and the plant answers to d = `load` alone, which is

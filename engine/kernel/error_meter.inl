@@ -55,7 +55,7 @@ class ErrorMeter {
     add_squares(e, e0, e1, middle, half, active);
     const Lanes first = abs(e0), rest = abs(scale_) * e.rest;
     const Mask sure = active & (first > rest);
-    const Lanes length = 2 * half, moment = mul_add(Lanes(middle), e0, Lanes(half / 3) * e1);
+    const Lanes length = 2 * half, moment = mul_add(Lanes(middle), e0, Lanes(half * (1.0 / 3)) * e1);
     iae_ = select(sure, mul_add(length, first, iae_), iae_);
     itae_ = select(sure, mul_add(length, abs(moment), itae_), itae_);
     return bits(but_not(active, sure));

@@ -68,8 +68,11 @@ class ExtremeQueue {
 template <int degree>
 struct ExtremeQueue::Visitor {
   ExtremeQueue& queue;
+  /// The signal has one degree more than its slope.
+  static constexpr int kSignalDegree = degree < kDegree ? degree + 2 : kDegree;
+
   Lanes half;
-  const Powers<kDegree>& f;
+  const Powers<kSignalDegree>& f;
 
   void keeps_sign(const Series& slope, const Part& part, Mask mask) { go_on(slope[0], part, bits(mask)); }
 
@@ -107,7 +110,7 @@ inline void ExtremeQueue::search_as(int slots) {
   const Lanes half = half_.first();
   set_integral(f, slope, half, mean_.first());
   falling_ = negative_bits(start_.first());
-  const Powers<kDegree> powers(f);
+  const Powers<Visitor<degree>::kSignalDegree> powers(f);
   Visitor<degree> visitor{*this, half, powers};
   search_zeros<degree>(slope, {Lanes(0.0), Lanes(1.0)}, Mask::from((1u << slots) - 1), kHalvings, visitor);
   report(slots);

@@ -37,7 +37,7 @@ class Filter {
     order_ = order;
     level_ = level, highest_ = highest;
     formula_ = {tau, Lanes(1.0) / tau};
-    for (Lanes& x : state_) x = Lanes(0.0);
+    for (int i = 0; i < order; ++i) state_[i] = Lanes(0.0);
   }
 
   /// Everything was at rest up to this panel's start, where h and its derivatives may jump.

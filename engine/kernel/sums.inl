@@ -21,7 +21,7 @@ inline Lanes rest_of_integral(double half_length, Lanes first, Lanes rest) {
 /// Of an error: sum of c_k^2/(2k+1), half the integral of the square; and what the moment of the square needs,
 /// int x P_k P_{k-1} = 2k/((2k-1)(2k+1)) = (1 + 1/(2k-1))/(2k+1), k >= 2.
 struct ErrorSums {
-  Lanes squares = 0.0, moments = 0.0;
+  Lanes squares, moments;
 };
 
 /// Takes the coefficients from the highest down. Above `kSquared` the squares are left out: of series that have died out
@@ -29,7 +29,7 @@ struct ErrorSums {
 template <int degree>
 struct ErrorSumsTo {
   static constexpr int kSquared = degree == kDegree ? 8 : 5;
-  ErrorSums sums;
+  ErrorSums sums{Lanes(0.0), Lanes(0.0)};
 
   void add(int k, Lanes c) {
     if (k > kSquared) return;
