@@ -19,6 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "engine/base/memory.h"
 #include "engine/base/version.h"
 #include "grids/grid_file.h"
 #include "portraits/merge.h"
@@ -134,6 +135,7 @@ void measure(std::uint64_t settings, const std::filesystem::path& folder) {
 }  // namespace portrait
 
 int main(int count, char** words) try {
+  portrait::keep_freed_memory();
   const std::uint64_t settings = count > 1 ? std::strtoull(words[1], nullptr, 10) : 10'000'000;
   portrait::measure(settings, count > 2 ? words[2] : ".");
 } catch (const std::exception& error) {

@@ -10,6 +10,7 @@
 #include "bench/codes.h"
 #include "bench/flops.h"
 #include "bench/report.h"
+#include "engine/base/memory.h"
 #include "engine/base/version.h"
 #include "engine/sweep/sweep.h"
 
@@ -82,6 +83,7 @@ void run(const Arguments& a) {
 }  // namespace portrait::bench
 
 int main(int argc, char** argv) {
+  portrait::keep_freed_memory();
   portrait::bench::Arguments a;
   CLI::App app(portrait::bench::kHelp);
   app.add_option("--filter", a.filter, "regular expression of the benchmarks to run")->capture_default_str();

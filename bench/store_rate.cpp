@@ -1,6 +1,6 @@
 /// store_rate [TILES [FOLDER]]
 ///
-/// What storing a sweep costs, stage by stage, over tiles of 1024 settings with every measure: half of the columns
+/// What storing a sweep costs, stage by stage, over tiles of 4096 settings with every measure: half of the columns
 /// smooth but otherwise random, a quarter constant, a quarter NaN. First the file is read back and compared with
 /// what went in. Then what each way of storing a chunk costs and gains, by how many of its values repeat the one
 /// before.
@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include "engine/base/memory.h"
 #include "portraits/chunk_codec.h"
 #include "portraits/digest.h"
 #include "portraits/fletcher32.h"
@@ -172,7 +173,7 @@ std::vector<std::byte> shuffled_and_deflated(std::span<const std::byte> values) 
 void measure_chunks() {
   std::mt19937_64 random(2);
   fmt::print(
-      "\na chunk of 1024 doubles, CPU us; plain: digest and checksum "
+      "\na chunk of 4096 doubles, CPU us; plain: digest and checksum "
       "alone\n\n{:<10}{:>8}{:>10}{:>10}{:>8}{:>10}{:>10}{:>8}\n",
       "repeating", "plain", "runs", "back", "size", "zlib 1", "back", "size");
   for (const std::size_t repeating : {0U, 4U, 8U, 12U, 16U, 20U, 24U, 28U, 31U, 32U}) {
@@ -200,6 +201,7 @@ void measure_chunks() {
 }  // namespace portrait
 
 int main(int count, char** words) try {
+  portrait::keep_freed_memory();
   const std::uint64_t tiles = count > 1 ? std::strtoull(words[1], nullptr, 10) : 2000;
   portrait::measure_stages(tiles, count > 2 ? words[2] : ".");
   portrait::measure_chunks();

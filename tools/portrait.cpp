@@ -9,6 +9,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/error.h"
+#include "engine/base/memory.h"
 #include "engine/base/version.h"
 #include "engine/base/words.h"
 #include "tools/characteristic_verb.h"
@@ -130,6 +131,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace portrait;
   using namespace portrait::tools;
+  keep_freed_memory();
   try {
     return run(argc, argv);
   } catch (const InputError& error) {
