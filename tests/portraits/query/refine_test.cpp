@@ -32,7 +32,8 @@ TEST(Refine, finds_the_pareto_optimal_settings_of_Dalen2018) {
   const Grid grid = dalen();
   const Conditions at = conditions({"Ms <= 1.59"});
   const Setting from{.kappa = 0.35, .tau_i = 8};
-  // (41) with s_r = 0.5; printed 0.41, 6.28, J = 1.52 by simulation in steps of 0.1. References 2.17 and 15.10 printed.
+  // (41) with s_r = 0.5; printed 0.41, 6.28, J = 1.52 by simulation in steps of 0.1: 1 % above the true least.
+  // References 2.17 and 15.10 printed.
   const Refined both = refine(grid, expression("0.5*IAE_w/2.1692 + 0.5*IAE_d/15.0942"), at, from);
   EXPECT_TRUE(both.converged);
   EXPECT_NEAR(both.best.setting.kappa, 0.41, 0.005);
@@ -95,13 +96,15 @@ TEST(Refine, shows_what_the_grid_of_Huba2022_leaves) {
   const Setting s47{.kappa = 0.24, .tau_i = 8, .delta = 0.70}, s48{.kappa = 0.08, .tau_i = 14, .delta = 0.35};
   const Refined free = refine(huba(), objective, conditions(where), s47);
   EXPECT_NEAR(free.start_objective, 41.333, 1e-3);
-  EXPECT_GT(free.gain(), 0.15);
+  EXPECT_NEAR(free.objective, 33.774, 0.05);
+  EXPECT_NEAR(free.gain(), 0.183, 0.002);
   EXPECT_TRUE(judge(huba(), conditions(where), free.best.setting).admissible());
   where.emplace_back("delta == 0.35");
   const Refined held = refine(huba(), objective, conditions(where), s48);
   EXPECT_NEAR(held.start_objective, 188.95, 0.01);
   EXPECT_EQ(held.best.setting.delta, 0.35);
-  EXPECT_GT(held.gain(), 0.05);
+  EXPECT_NEAR(held.objective, 174.09, 0.2);
+  EXPECT_NEAR(held.gain(), 0.079, 0.002);
   EXPECT_TRUE(judge(huba(), conditions(where), held.best.setting).admissible());
 }
 
