@@ -123,7 +123,7 @@ void measure(std::uint64_t settings, const std::filesystem::path& folder) {
   const double file = static_cast<double>(std::filesystem::file_size(path)) * 1e-6;
   const Cost verified = cost_of("verify", [&] { verify(path); });
   check(path, grid);
-  fmt::print("portrait {}: {} settings, {} measures, {:.0f} MB in the file\n", program_version(), setting_count(grid),
+  fmt::print("{}: {} settings, {} measures, {:.0f} MB in the file\n", program_version(), setting_count(grid),
              grid.measures.size(), file);
   print("write, two shards", written, file);
   print("merge", merged, file);
