@@ -48,11 +48,48 @@ Prefilter prefilter_in(const Value::Table& root, int n) {
   return thing_in("prefilter", entry->value, prefilter_named, {kPrefilterNames.begin(), kPrefilterNames.end()});
 }
 
+/// The order of jotd.
+int plant_order_in(const Value& root, Plant plant) {
+  const Entry* entry = find(std::get<Value::Table>(root.content), "j");
+  if (plant != Plant::jotd) {
+    if (entry) throw InputError(entry->place, "\"j\" is the order of plant \"jotd\"");
+    return 0;
+  }
+  const Value& value = need(root, "j", fmt::format("the order of jotd, 1 .. {}", kMaxPlantOrder)).value;
+  const std::int64_t j = whole_number_in("j", value);
+  if (1 <= j && j <= kMaxPlantOrder) return static_cast<int>(j);
+  throw InputError(value.place, fmt::format("\"j\" must be 1 .. {} (it is {})", kMaxPlantOrder, j));
+}
+
+/// The highest gain K_m that the parameters name.
+const Entry* last_gain_in(const Value::Table& parameters) {
+  const Entry* last = nullptr;
+  for (const Entry& entry : parameters) {
+    const auto parameter = parameter_named(entry.key);
+    if (parameter && gain_place(*parameter) && (!last || *parameter > *parameter_named(last->key))) last = &entry;
+  }
+  return last;
+}
+
+LoopFamily with_gains(const Value::Table& table, const Entry& last, LoopFamily family) {
+  const Entry* prefilter = find(table, "prefilter");
+  family.m = static_cast<int>(*gain_place(*parameter_named(last.key))) - 1;
+  family.prefilter = prefilter ? prefilter_in(table, family.n) : Prefilter::none;
+  const auto why = why_invalid(family);
+  if (!why) return family;
+  throw InputError(family.prefilter != Prefilter::none && prefilter ? prefilter->value.place : last.place, *why);
+}
+
 LoopFamily family_in(const Value& root) {
   const auto& table = std::get<Value::Table>(root.content);
-  const Plant plant = plant_in(root);
-  const int n = filter_order_in(table);
-  return {plant, n, prefilter_in(table, n)};
+  LoopFamily family{.plant = plant_in(root), .n = filter_order_in(table)};
+  family.j = plant_order_in(root, family.plant);
+  const Entry* parameters = find(table, "parameters");
+  const bool is_table = parameters && std::holds_alternative<Value::Table>(parameters->value.content);
+  const Entry* gain = is_table ? last_gain_in(std::get<Value::Table>(parameters->value.content)) : nullptr;
+  if (gain) return with_gains(table, *gain, family);
+  family.prefilter = prefilter_in(table, family.n);
+  return family;
 }
 
 Horizon horizon_in(const Value& root) {
@@ -139,13 +176,25 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
+/// Noise is drawn by simulate, one loop at a time; what a sweep keeps of it is exact.
+void refuse_noise(const Value::Table& table) {
+  for (const char* key : {"noise", "noise_kind", "seed", "seeds", "sampled"})
+    if (const Entry* entry = find(table, key))
+      throw InputError(
+          entry->place,
+          fmt::format("\"{}\": a sweep draws no noise; with the key \"sampling\" it keeps noise_gain, the exact "
+                      "RMS of u per RMS of noise, and portrait simulate --noise shows a setting under noise",
+                      key));
+}
+
 }  // namespace
 
 Grid parse_grid(std::string text, std::string source_name) {
   const Value root = parse_toml(text, source_name);
   const auto& table = std::get<Value::Table>(root.content);
-  allow_only(table,
-             {"title", "plant", "n", "prefilter", "horizon", "sampling", "precision", "measures", "parameters"});
+  refuse_noise(table);
+  allow_only(table, {"title", "plant", "j", "n", "prefilter", "horizon", "sampling", "precision", "measures",
+                     "parameters"});
   Grid grid;
   grid.title = title_in(table);
   grid.family = family_in(root);

@@ -21,7 +21,20 @@ std::vector<std::string_view> parameter_names() {
 
 /// Why a loop of this family has no such parameter. REQUIRES: it has none.
 std::string why_not(Parameter parameter, const LoopFamily& family) {
+  if (const auto place = gain_place(parameter)) {
+    PORTRAIT_CHECK(!has_gains(family));
+    return fmt::format("\"{}\" is a gain: all of them together take the place of kappa, tau_i and delta",
+                       to_string(parameter));
+  }
   switch (parameter) {
+    case Parameter::kappa:
+    case Parameter::tau_i:
+    case Parameter::delta:
+    case Parameter::tau_d:
+      return fmt::format("\"{}\" has no place beside gains K_-1, K_0, ...: give one or the other",
+                         to_string(parameter));
+    case Parameter::tau_j:
+      return fmt::format("\"tau_j\" belongs to plant \"jotd\", not to \"{}\"", to_string(family.plant));
     case Parameter::tau_1:
       return fmt::format("\"tau_1\" belongs to plant \"fotd\", not to \"{}\"", to_string(family.plant));
     case Parameter::tau_f:
@@ -53,9 +66,15 @@ void read_entry(const Entry& entry, Grid& grid) {
 }
 
 void need_parameters(const Value& parameters, const LoopFamily& family) {
-  need(parameters, "kappa", "the controller's gain");
-  need(parameters, "tau_i", "write inf for no integral action");
+  if (has_gains(family)) {
+    need(parameters, "K_-1", "the integral gain, 0 for none");
+    need(parameters, "K_0", "the proportional gain");
+  } else {
+    need(parameters, "kappa", "the controller's gain");
+    need(parameters, "tau_i", "write inf for no integral action");
+  }
   if (family.plant == Plant::fotd) need(parameters, "tau_1", "plant \"fotd\" needs it");
+  if (family.plant == Plant::jotd) need(parameters, "tau_j", "plant \"jotd\" needs it");
   if (family.n >= 1) need(parameters, "tau_f", "n >= 1 needs it");
 }
 
@@ -70,6 +89,7 @@ void refuse_both_derivatives(const Value::Table& table) {
 /// Every parameter of the family that the file leaves out is 0; what may not be left out has been asked for before.
 void complete_fixed(const Value::Table& table, Grid& grid) {
   for (const Parameter parameter : parameters_of(grid.family)) {
+    if (has_gains(grid.family) && parameter == Parameter::tau_d) continue;
     const bool said_otherwise =
         parameter == Parameter::tau_d || (parameter == Parameter::delta && find(table, "tau_d"));
     if (!said_otherwise && !find(table, to_string(parameter))) grid.fixed.push_back({parameter, 0});

@@ -17,17 +17,27 @@ struct PlainValue {
 };
 
 /// Values that suit every loop. b and c first: a reason against them speaks of other parameters, never the reverse.
-constexpr std::array<PlainValue, 7> kPlainValues = {{{Parameter::c, 0},
-                                                     {Parameter::b, 0},
-                                                     {Parameter::kappa, 1},
-                                                     {Parameter::tau_i, 1},
-                                                     {Parameter::delta, 1},
-                                                     {Parameter::tau_1, 1},
-                                                     {Parameter::tau_f, 1}}};
+constexpr std::array<PlainValue, 16> kPlainValues = {{{Parameter::c, 0},
+                                                      {Parameter::b, 0},
+                                                      {Parameter::kappa, 1},
+                                                      {Parameter::tau_i, 1},
+                                                      {Parameter::delta, 1},
+                                                      {Parameter::tau_1, 1},
+                                                      {Parameter::tau_f, 1},
+                                                      {Parameter::tau_j, 1},
+                                                      {Parameter::K_m1, 1},
+                                                      {Parameter::K_0, 1},
+                                                      {Parameter::K_1, 0},
+                                                      {Parameter::K_2, 0},
+                                                      {Parameter::K_3, 0},
+                                                      {Parameter::K_4, 0},
+                                                      {Parameter::K_5, 0},
+                                                      {Parameter::K_6, 0}}};
 
 /// The parameter that takes the reason away when it is made plain.
 Parameter culprit(const Loop& loop, const std::string& reason) {
   const auto found = std::find_if(kPlainValues.begin(), kPlainValues.end(), [&](const PlainValue& plain) {
+    if (!applies(plain.parameter, loop.family)) return false;
     Loop changed = loop;
     set(changed.setting, plain.parameter, plain.value);
     return why_invalid(changed) != reason;

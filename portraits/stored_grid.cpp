@@ -27,6 +27,8 @@ std::string names_of(const Items& items, Name name) {
 void write_family(const h5::File& file, const Grid& grid) {
   file.set_text("plant", std::string(to_string(grid.family.plant)));
   file.set_integer("n", grid.family.n);
+  if (grid.family.plant == Plant::jotd) file.set_integer("j", grid.family.j);
+  if (has_gains(grid.family)) file.set_integer("m", grid.family.m);
   file.set_text("prefilter", std::string(to_string(grid.family.prefilter)));
   file.set_text("horizon", schema::horizon_text(grid.horizon));
   if (grid.sampling) file.set_real("sampling", *grid.sampling);
@@ -76,12 +78,22 @@ std::optional<double> read_sampling(const h5::File& file) {
   return dead_times;
 }
 
+int order_in(const h5::File& file, const char* attribute) {
+  const std::int64_t order = file.integer(attribute);
+  if (order < 0 || order > kMaxFilterOrder) broken(file, fmt::format("attribute {} is {}", attribute, order));
+  return static_cast<int>(order);
+}
+
 LoopFamily read_family(const h5::File& file) {
   const std::int64_t n = file.integer("n");
   if (n < 0 || n > kMaxFilterOrder) broken(file, fmt::format("attribute n is {}", n));
-  return {.plant = read_word(file, "plant", plant_named),
-          .n = static_cast<int>(n),
-          .prefilter = read_word(file, "prefilter", prefilter_named)};
+  const LoopFamily family{.plant = read_word(file, "plant", plant_named),
+                          .n = static_cast<int>(n),
+                          .prefilter = read_word(file, "prefilter", prefilter_named),
+                          .j = file.has("j") ? order_in(file, "j") : 0,
+                          .m = file.has("m") ? order_in(file, "m") : -1};
+  if (const auto why = why_invalid(family)) broken(file, *why);
+  return family;
 }
 
 Parameter read_parameter_name(const h5::File& file, const LoopFamily& family, const std::string& name) {

@@ -75,6 +75,8 @@ std::optional<double> sampling_argument(std::string_view option, std::string_vie
 Plant plant_family_argument(std::string_view option, std::string_view text) {
   const auto plant = plant_named(text);
   if (!plant) fail(option, fmt::format("unknown plant \"{}\"{}", text, suggestion(text, words(kPlantNames))));
+  if (*plant == Plant::jotd)
+    fail(option, "jotd has its place in portrait simulate and in grid files; here it is dipdt, ipdt or fotd");
   return *plant;
 }
 
@@ -99,12 +101,13 @@ RealPlant real_plant_argument(std::string_view option, std::string_view text, Pl
       plant.K = number;
     else if (name == "Td")
       plant.Td = number;
-    else if (name == "T1" && family == Plant::fotd)
+    else if (name == lag_name(family))
       plant.T1 = number;
     else if (name == "T1")
       fail(option, fmt::format("T1 belongs to fotd, not to {}", to_string(family)));
     else
-      fail(option, fmt::format("unknown name \"{}\"{}", name, suggestion(name, {"K", "Td", "T1"})));
+      fail(option, fmt::format("unknown name \"{}\"{}", name,
+                               suggestion(name, {"K", "Td", lag_name(family).empty() ? "T1" : lag_name(family)})));
   }
   if (const auto reason = why_invalid(plant)) fail(option, *reason);
   return plant;

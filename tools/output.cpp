@@ -167,6 +167,8 @@ std::string plant_text(const RealPlant& plant) {
       return "K e^(-Td s)/s, " + numbers;
     case Plant::fotd:
       return "K e^(-Td s)/(T1 s + 1), " + numbers + fmt::format(", T1 = {}", short_number(plant.T1));
+    case Plant::jotd:
+      return "K e^(-Td s)/(Tj s + 1)^j, " + numbers + fmt::format(", Tj = {}", short_number(plant.T1));
   }
   return {};
 }

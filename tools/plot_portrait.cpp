@@ -78,9 +78,10 @@ std::vector<std::uint64_t> held_indices(const MapArguments& a, const ShownPortra
     held = coordinates(grid, best->number);
   else
     for (const Axis& axis : grid.axes) held.push_back(axis.size() / 2);
-  if (const auto tau_1 = slice_of(shown.units, grid))
-    held[axis_index(grid, Parameter::tau_1)] =
-        *index_of_value(grid.axes[axis_index(grid, Parameter::tau_1)].values(), *tau_1);
+  if (const auto slice = slice_of(shown.units, grid)) {
+    const std::size_t lag = axis_index(grid, lag_parameter(grid.family.plant).value());
+    held[lag] = *index_of_value(grid.axes[lag].values(), *slice);
+  }
   for (const std::string& text : a.at) hold(grid, text, held);
   return held;
 }

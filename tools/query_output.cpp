@@ -32,7 +32,7 @@ Json json_found(const Grid& grid, const QueryUnits& units, const Found& found) {
 
 Json json_plant(const RealPlant& plant) {
   Json json{{"family", to_string(plant.family)}, {"K", plant.K}, {"Td", plant.Td}};
-  if (plant.family == Plant::fotd) json["T1"] = plant.T1;
+  if (lag_parameter(plant.family)) json[std::string(lag_name(plant.family))] = plant.T1;
   return json;
 }
 

@@ -21,6 +21,9 @@ std::optional<double> fixed_value(const Grid& grid, Parameter parameter) {
 
 /// The plant in whose units the rules work.
 RealPlant plant_of(const Grid& grid, const QueryUnits& units) {
+  if (!is_basic(grid.family))
+    throw InputError(
+        "--rules: of portraits of dipdt, ipdt and fotd with a PID controller; for others see portrait tune");
   if (units.plant) return *units.plant;
   RealPlant plant{.family = grid.family.plant, .K = 1, .Td = 1, .T1 = 0};
   if (grid.family.plant != Plant::fotd) return plant;
@@ -37,7 +40,7 @@ rules::RulePlant rule_plant(const RealPlant& p) {
       return rules::dipdt(p.K, p.Td);
     case Plant::ipdt:
       return rules::ipdt(p.K, p.Td);
-    case Plant::fotd:
+    default:
       break;
   }
   return rules::jotd(p.K, p.Td, p.T1, 1);

@@ -119,7 +119,9 @@ bool is_general(const SimulateArguments& a) {
 
 int simulate_general(const SimulateArguments& a) {
   if (a.method == "kernel")
-    throw InputError("--method kernel: the kernel takes the normalised families alone; leave --method out");
+    throw InputError(
+        "--method kernel: here only of dipdt, ipdt and fotd; jotd and gains it sweeps from a grid file; leave "
+        "--method out");
   const GeneralLoop loop = general_loop_argument(a);
   const Sizes sizes = sizes_of(a);
   const NormalisedLoop inside = normalised(loop, time_unit(a, loop));

@@ -52,6 +52,12 @@ Asked asked(const SimulateArguments& a, const Units& units) {
   return found;
 }
 
+/// Whether the dead time is a whole number of sampling times, but for rounding.
+bool divides_dead_time(double sampling, double dead_time) {
+  const double samples = dead_time / sampling;
+  return std::abs(samples - std::round(samples)) < 1e-9 * (1 + samples);
+}
+
 /// Mean and standard deviation over seeds of one measure, in the order in which measures are added.
 class Statistics {
  public:
@@ -147,7 +153,8 @@ Json noise_report(const SimulateArguments& a, const NormalisedLoop& inside, cons
             {"controller", ask.sampled ? "sampled" : "continuous"},
             {"seed", a.seed},
             {"seeds", ask.seeds},
-            {"samples", answer.samples()}};
+            {"samples", answer.samples()},
+            {"sampling_divides_dead_time", divides_dead_time(ask.noise.sampling, inside.loop.plant.dead_time)}};
   json["noise_gain"] = json_number(reference::noise_gain(r, ask.noise.sampling) / gain);
   json["sigma_ratio"] = sigma_json(ask, answer, gain);
   for (const Step step : reference::kUsualSteps) {
@@ -173,6 +180,10 @@ std::string noise_text(const Json& report) {
                   report["kind"].get<std::string>(), number(report["amplitude"]), number(report["sampling"]),
                   report["controller"].get<std::string>(), report["seeds"].get<int>(),
                   report["seed"].get<std::uint64_t>(), report["samples"].get<std::size_t>());
+  if (!report["sampling_divides_dead_time"].get<bool>())
+    text +=
+        "  the sampling time does not divide the dead time: nothing is rounded, the delayed output is exact in "
+        "between\n";
   const Json& sigma = report["sigma_ratio"];
   text += fmt::format("  sigma_u/sigma_n {} simulated, {} expected; noise_gain {}\n",
                       number(sigma["simulated"]["mean"]), number(sigma["expected"]), number(report["noise_gain"]));

@@ -3,15 +3,18 @@
 #include <array>
 
 #include "engine/base/check.h"
+#include "engine/kernel/resolution.h"
 #include "engine/loop/loop_measures.h"
 #include "engine/loop/stability.h"
 
 namespace portrait::kernel {
 namespace {
 
-void fill_lane(MarginPack& pack, std::size_t lane, const Setting& s) {
+void fill_lane(MarginPack& pack, std::size_t lane, const Loop& loop) {
+  const Setting& s = loop.setting;
+  const double lag = plant_lags(loop).time;
   pack.kappa[lane] = s.kappa, pack.tau_i[lane] = s.tau_i, pack.delta[lane] = s.delta;
-  pack.tau_1[lane] = s.tau_1, pack.tau_f[lane] = s.tau_f;
+  pack.tau_1[lane] = lag, pack.tau_f[lane] = s.tau_f;
 }
 
 LoopMargins margins_of(const MarginResult& found, std::size_t lane) {
@@ -39,17 +42,22 @@ class Search {
       : implementation_(implementation), family_(family), settings_(settings), results_(results) {}
 
   void run() {
+    if (plant_kind(family_) == PlantKind::cascade) return find_one_by_one();
     find_alike(false);
     find_alike(true);
   }
 
  private:
+  void find_one_by_one() {
+    for (std::size_t i = 0; i < settings_.size(); ++i) results_[i] = one_by_one({family_, settings_[i]});
+  }
+
   void find_alike(bool integral) {
-    pack_.plant = static_cast<PlantKind>(family_.plant), pack_.n = family_.n, pack_.integral = integral;
+    pack_.plant = plant_kind(family_), pack_.n = family_.n, pack_.integral = integral;
     for (std::size_t i = 0; i < settings_.size(); ++i) {
       if (has_integral_action(settings_[i]) != integral) continue;
       which_[filled_] = i;
-      fill_lane(pack_, filled_++, settings_[i]);
+      fill_lane(pack_, filled_++, {family_, settings_[i]});
       if (filled_ == static_cast<std::size_t>(implementation_.lanes)) find_pack();
     }
     if (filled_ > 0) find_pack();
@@ -57,7 +65,7 @@ class Search {
 
   void find_pack() {
     for (std::size_t lane = filled_; lane < kMaxLanes; ++lane)
-      fill_lane(pack_, lane, settings_[which_[filled_ - 1]]);
+      fill_lane(pack_, lane, {family_, settings_[which_[filled_ - 1]]});
     MarginResult found;
     implementation_.find_margins(pack_, found);
     for (std::size_t lane = 0; lane < filled_; ++lane) {

@@ -10,7 +10,15 @@ inline constexpr int kMaxLanes = 8;
 inline constexpr int kMaxPanels = 64;
 inline constexpr int kMaxFilters = 16;
 
-enum class PlantKind { dipdt, ipdt, fotd };
+inline constexpr int kMaxGains = 8;
+inline constexpr int kMaxPlantOrder = 8;
+
+enum class PlantKind {
+  dipdt,
+  ipdt,
+  fotd,
+  cascade,  ///< integrators and equal lags, any number; the controller given by its gains
+};
 constexpr int integrators(PlantKind plant) {
   return plant == PlantKind::dipdt ? 2 : plant == PlantKind::ipdt ? 1 : 0;
 }
@@ -48,6 +56,11 @@ struct Pack {
   PackColumn g0, g1, g2;                                 ///< y_w = -(g0 int v + g1 v + g2 v')
   PackColumn a1, a2, b_r, c_r;
   PackColumn y_rest_w, u_rest_w, y_rest_d, u_rest_d;
+
+  // Of a cascade, whose lags have the time constant tau_1.
+  int m;                        ///< derivatives in the controller; n = 0: one, of the output
+  int lags, integrators;        ///< of the plant
+  PackColumn gains[kMaxGains];  ///< K_-1, K_0, ...
 };
 
 /// One step's measures.

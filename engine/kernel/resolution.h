@@ -16,6 +16,22 @@
 
 namespace portrait::kernel {
 
+/// The kind of plant that computes a family: of its own where there is one.
+constexpr PlantKind plant_kind(const LoopFamily& family) {
+  if (has_gains(family)) return PlantKind::cascade;
+  switch (family.plant) {
+    case Plant::dipdt:
+      return PlantKind::dipdt;
+    case Plant::ipdt:
+      return PlantKind::ipdt;
+    case Plant::fotd:
+      return PlantKind::fotd;
+    case Plant::jotd:
+      return family.j == 1 ? PlantKind::fotd : PlantKind::cascade;
+  }
+  return PlantKind::cascade;
+}
+
 struct Resolution {
   Mesh mesh{};
   int layered_intervals = 0;

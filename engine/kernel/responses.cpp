@@ -16,7 +16,8 @@ namespace portrait::kernel {
 namespace {
 
 static_assert(kMaxFilters == kMaxFilterOrder);
-static_assert(static_cast<int>(PlantKind::fotd) == static_cast<int>(Plant::fotd));
+static_assert(kMaxGains == kMaxGainOrder + 2);
+static_assert(kMaxPlantOrder == portrait::kMaxPlantOrder);
 
 /// Last coefficients of u and y, as a part of the signal, that count as died out.
 constexpr double kResolved = 1e-9;
@@ -43,6 +44,9 @@ Gains setpoint_gains(const LoopFamily& family, const Setting& s) {
 /// `pi` cancels the zero of a PI controller, not those of a filtered PID; `full` not those of a PI controller beside an ideal
 /// derivative of y alone.
 SetpointRun setpoint_run(const LoopFamily& family, const Setting& s) {
+  if (plant_kind(family) == PlantKind::cascade)
+    return family.prefilter == Prefilter::full && s.delta > 0 && has_integral_action(s) ? SetpointRun::second_order
+                                                                                        : SetpointRun::lag;
   const bool integral = has_integral_action(s);
   if (family.prefilter == Prefilter::pi && family.n >= 1 && integral) return SetpointRun::lag;
   if (family.prefilter == Prefilter::full && family.n == 0 && s.delta > 0)
@@ -55,18 +59,23 @@ struct Ratio {
   double a1, a2, b, c;
 };
 
+/// As a lag (1 + s)/(1 + s).
+constexpr Ratio kNoPrefilter = {1, 1, 1, 0};
+
 Ratio prefilter_of(const LoopFamily& family, const Setting& s, SetpointRun run) {
   if (run == SetpointRun::from_disturbance) return {1, 1, 0, 0};
   if (run == SetpointRun::second_order) return {s.tau_i, s.tau_i * tau_d(s), s.b, s.c};
-  if (family.prefilter == Prefilter::pi) return {s.tau_i, 1, s.b * s.tau_i, 0};
-  return {tau_d(s), 1, s.b, 0};
+  const bool integral = has_integral_action(s), derivative = s.delta > 0;
+  if (family.prefilter == Prefilter::none || !(integral || derivative)) return kNoPrefilter;
+  if (family.prefilter == Prefilter::pi) return integral ? Ratio{s.tau_i, 1, s.b * s.tau_i, 0} : kNoPrefilter;
+  return {integral ? s.tau_i : tau_d(s), 1, s.b, 0};
 }
 
 /// The smallest time constant that shapes a response.
 double fastest(const LoopFamily& family, const Setting& s, SetpointRun run) {
   double time = kInf;
   if (family.n >= 1) time = std::min(time, s.tau_f);
-  if (family.plant == Plant::fotd) time = std::min(time, s.tau_1);
+  if (const PlantLags lags = plant_lags({family, s}); lags.count > 0) time = std::min(time, lags.time);
   const Ratio ratio = prefilter_of(family, s, run);
   if (run == SetpointRun::lag) time = std::min(time, ratio.a1);
   if (run == SetpointRun::second_order) time = std::min({time, ratio.a2 / ratio.a1, std::sqrt(ratio.a2)});
@@ -106,12 +115,16 @@ Kind kind_of(const LoopFamily& family, const Setting& s, Horizon horizon) {
 void fill_lane(Pack& pack, std::size_t lane, const Loop& loop) {
   const Setting& s = loop.setting;
   const Gains g = setpoint_gains(loop.family, s);
+  pack.tau_1[lane] = plant_lags(loop).count > 0 ? plant_lags(loop).time : 1;
+  if (pack.plant == PlantKind::cascade) {
+    const auto gains = gains_of(loop);
+    for (std::size_t k = 0; k < gains.size(); ++k) pack.gains[k][lane] = gains[k];
+  }
   const SteadyState w = rest_after_setpoint_step(loop), d = rest_after_disturbance_step(loop);
   const Ratio prefilter = prefilter_of(loop.family, s, pack.setpoint_run);
   pack.kappa[lane] = s.kappa;
   pack.integral_gain[lane] = has_integral_action(s) ? s.kappa / s.tau_i : 0;
   pack.delta[lane] = s.delta;
-  pack.tau_1[lane] = s.tau_1;
   pack.tau_f[lane] = s.tau_f;
   pack.g0[lane] = g.g0, pack.g1[lane] = g.g1, pack.g2[lane] = g.g2;
   pack.a1[lane] = prefilter.a1, pack.a2[lane] = prefilter.a2;
@@ -122,8 +135,11 @@ void fill_lane(Pack& pack, std::size_t lane, const Loop& loop) {
 
 Pack pack_for(const LoopFamily& family, const Kind& kind) {
   Pack pack{};
-  pack.plant = static_cast<PlantKind>(family.plant);
+  pack.plant = plant_kind(family);
   pack.n = family.n;
+  pack.m = has_gains(family) ? family.m : std::min(family.n, 1);
+  pack.lags = family.plant == Plant::fotd ? 1 : family.j;
+  pack.integrators = integrators(family.plant);
   pack.setpoint_run = kind.run;
   pack.slow_filter = kind.slow_filter;
   pack.horizon = kind.horizon;

@@ -13,7 +13,7 @@
 /// advanced, then watched.
 #pragma once
 
-#include "engine/kernel/chain.inl"
+#include "engine/kernel/cascade.inl"
 #include "engine/kernel/setpoint.inl"
 #include "engine/kernel/step_meters.inl"
 
@@ -59,7 +59,10 @@ class Run {
   static constexpr int kRelativeDegree = plant == PlantKind::dipdt ? 2 : plant == PlantKind::ipdt ? 1 : 0;
 
   /// u jumps after every dead time where an ideal derivative meets a plant that passes jumps on.
-  static constexpr bool kInputJumps = !filtered && plant != PlantKind::dipdt;
+  static constexpr bool kInputJumps = !filtered && plant != PlantKind::dipdt && plant != PlantKind::cascade;
+
+  /// The others have u + d among the derivatives of y.
+  static constexpr bool kOwnInput = plant == PlantKind::fotd || plant == PlantKind::cascade;
 
   /// Whether it is asked after this interval which lanes are at rest.
   static bool looks(int k) { return k % 8 == 7; }
@@ -101,7 +104,7 @@ class Run {
     panel.half = half;
     panel.weights.prepare(half);
     if (filtered) panel.filter.prepare(Lanes::from(pack_.tau_f), half);
-    if (plant == PlantKind::fotd) panel.plant.prepare(Lanes::from(pack_.tau_1), half);
+    if (kOwnInput) panel.plant.prepare(Lanes::from(pack_.tau_1), half);
   }
 
   /// Layers have faded: from here on panels are as long as smooth signals allow.
@@ -156,7 +159,7 @@ class Run {
     run_chain<degree>(panels_[p], p, z, p == 0 && k == (disturbed ? 1 : 0));
     Series& u = plant_input<plant>(z);
     input_mean_ = u[0];
-    if (plant != PlantKind::fotd) u[0] += chain_.load;
+    if (!kOwnInput) u[0] += chain_.load;
     if (both_ && !derived_.is_scaled()) derive_output();
     if (both_ && (plant == PlantKind::fotd || !derived_.is_scaled())) derive_input<degree>();
   }

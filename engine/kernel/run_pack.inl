@@ -57,6 +57,9 @@ inline void run(const Pack& pack, PackResult& result) {
     case PlantKind::fotd:
       return filtered ? run_family<PlantKind::fotd, true>(pack, result)
                       : run_family<PlantKind::fotd, false>(pack, result);
+    case PlantKind::cascade:
+      return filtered ? run_family<PlantKind::cascade, true>(pack, result)
+                      : run_family<PlantKind::cascade, false>(pack, result);
   }
 }
 

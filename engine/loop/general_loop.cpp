@@ -133,7 +133,13 @@ GeneralLoop general(const Loop& loop) {
   GeneralLoop found;
   found.plant.dead_time = 1;
   found.plant.rational.denominator.assign(static_cast<std::size_t>(integrators(loop.family.plant)), {0, 1});
-  if (loop.family.plant == Plant::fotd) found.plant.rational.denominator = {{1, s.tau_1}};
+  const PlantLags lags = plant_lags(loop);
+  for (int i = 0; i < lags.count; ++i) found.plant.rational.denominator.push_back({1, lags.time});
+  if (has_gains(loop.family)) {
+    const auto gains = std::span(s.gains).first(static_cast<std::size_t>(loop.family.m) + 2);
+    found.controller = gains_controller(gains, loop.family.n, s.tau_f);
+    return found;
+  }
   const ParallelForm form = parallel(StandardForm{.Kc = s.kappa, .Ti = s.tau_i, .TD = tau_d(s)});
   found.controller = pid_controller({form.Kp, form.Ki, s.delta}, loop.family.n, s.tau_f);
   found.controller.prefilter = prefilter(loop);

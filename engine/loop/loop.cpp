@@ -29,6 +29,19 @@ std::optional<std::string> why_controller_invalid(const Setting& s) {
   return std::nullopt;
 }
 
+std::optional<std::string> why_gains_invalid(const LoopFamily& family, const Setting& s) {
+  for (int i = 0; i <= kMaxGainOrder + 1; ++i) {
+    const double K = s.gains[static_cast<std::size_t>(i)];
+    const std::string name = fmt::format("K_{}", i - 1);
+    if (!std::isfinite(K)) return must(name, "finite", K);
+    if (i <= 1 && K < 0) return must(name, "not below 0", K);
+    if (i > family.m + 1 && K != 0) return must(name, fmt::format("0 beyond K_{}", family.m), K);
+  }
+  if (s.gains[0] == 0 && s.gains[1] == 0) return "K_0 must be above 0 where K_-1 is 0: at rest nothing would act";
+  if (s.kappa != 0 || s.delta != 0) return "kappa and delta have no place beside gains";
+  return std::nullopt;
+}
+
 /// F must be proper: a setpoint step through an improper prefilter is an impulse.
 std::optional<std::string> why_prefilter_invalid(Prefilter prefilter, const Setting& s) {
   if (!std::isfinite(s.b)) return must("b", "finite", s.b);
@@ -58,13 +71,36 @@ std::optional<Prefilter> prefilter_named(std::string_view name) {
   return std::nullopt;
 }
 
+std::array<double, kMaxGainOrder + 2> gains_of(const Loop& loop) {
+  const Setting& s = loop.setting;
+  if (has_gains(loop.family)) return s.gains;
+  return {has_integral_action(s) ? s.kappa / s.tau_i : 0, s.kappa, s.delta};
+}
+
+std::optional<std::string> why_invalid(const LoopFamily& family) {
+  if (family.n < 0 || family.n > kMaxFilterOrder)
+    return fmt::format("n must be 0 .. {} (it is {})", kMaxFilterOrder, family.n);
+  if (family.plant == Plant::jotd && (family.j < 1 || family.j > kMaxPlantOrder))
+    return fmt::format("j must be 1 .. {} (it is {})", kMaxPlantOrder, family.j);
+  if (!has_gains(family)) return std::nullopt;
+  if (family.m > kMaxGainOrder) return fmt::format("gains go up to K_{} (here to K_{})", kMaxGainOrder, family.m);
+  if (family.n < family.m)
+    return fmt::format("gains up to K_{} need a filter of order n >= {} (n is {})", family.m, family.m, family.n);
+  if (family.prefilter != Prefilter::none)
+    return fmt::format("prefilter \"{}\" is made of a PID controller's times: beside gains it must be \"none\"",
+                       to_string(family.prefilter));
+  return std::nullopt;
+}
+
 std::optional<std::string> why_invalid(const Loop& loop) {
   const Setting& s = loop.setting;
-  if (loop.family.n < 0 || loop.family.n > kMaxFilterOrder)
-    return fmt::format("n must be 0 .. {} (it is {})", kMaxFilterOrder, loop.family.n);
-  if (auto reason = why_controller_invalid(s)) return reason;
+  if (auto reason = why_invalid(loop.family)) return reason;
+  if (auto reason = has_gains(loop.family) ? why_gains_invalid(loop.family, s) : why_controller_invalid(s))
+    return reason;
   if (loop.family.plant == Plant::fotd && !finite_above_zero(s.tau_1))
     return must("tau_1", "finite and above 0", s.tau_1);
+  if (loop.family.plant == Plant::jotd && !finite_above_zero(s.tau_j))
+    return must("tau_j", "finite and above 0", s.tau_j);
   if (loop.family.n >= 1 && !finite_above_zero(s.tau_f)) return must("tau_f", "finite and above 0", s.tau_f);
   return why_prefilter_invalid(loop.family.prefilter, s);
 }

@@ -61,12 +61,11 @@ class NoiseIntegral {
   NoiseIntegral(const Loop& loop, double sampling) : open_(open_loop(loop)), Ts_(sampling) {
     const Setting& setting = loop.setting;
     plant_.integrators = integrators(loop.family.plant);
-    if (loop.family.plant == Plant::fotd) plant_.lags = {setting.tau_1};
+    const PlantLags lags = plant_lags(loop);
+    plant_.lags.assign(static_cast<std::size_t>(lags.count), lags.time);
     controller_.integrators = has_integral_action(setting) ? 1 : 0;
     controller_.lags.assign(static_cast<std::size_t>(loop.family.n), setting.tau_f);
-    numerator_ = has_integral_action(setting)
-                     ? Polynomial{setting.kappa / setting.tau_i, setting.kappa, setting.delta}
-                     : Polynomial{setting.kappa, setting.delta};
+    numerator_ = controller_numerator(loop);
     squared_ = numerator_squared(open_);
     left_terms_ = static_cast<int>(std::floor(Ts_));
     turn_at_ = turning_frequency();
@@ -117,7 +116,7 @@ class NoiseIntegral {
   }
 
   double slowest() const {
-    double omega = numerator_[1] > 0 ? std::min(1.0, numerator_[0] / numerator_[1]) : 1;
+    double omega = numerator_.size() > 1 && numerator_[1] > 0 ? std::min(1.0, numerator_[0] / numerator_[1]) : 1;
     for (const auto& lags : {plant_.lags, controller_.lags})
       for (const double T : lags) omega = std::min(omega, 1 / T);
     return 0.1 * omega;

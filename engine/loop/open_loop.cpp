@@ -48,14 +48,25 @@ std::vector<double> roots_of_x(const Polynomial& of_x) {
   return roots;
 }
 
-/// C = (n0 + n1 s + n2 s^2)/s, or without integral action n0 + n1 s.
-std::array<double, 3> controller_numerator(const Setting& s) {
-  if (has_integral_action(s)) return {s.kappa / s.tau_i, s.kappa, s.delta};
-  return {s.kappa, s.delta, 0};
-}
-
 int integrators_of(const Loop& loop) {
   return integrators(loop.family.plant) + (has_integral_action(loop.setting) ? 1 : 0);
+}
+
+/// `gain_squared_at` of a loop of any order.
+double gain_squared_by_gains(const Loop& loop, double omega) {
+  const auto K = gains_of(loop);
+  const double x = omega * omega, tau_f = loop.setting.tau_f;
+  double even = 0, odd = 0;  // of sum K_k s^(k+1): real part, and imaginary part over omega
+  for (std::size_t i = K.size(); i-- > 0;) {
+    double& part = i % 2 == 0 ? even : odd;
+    part = K[i] - x * part;
+  }
+  double gain = (even * even + odd * odd * x) / x;
+  for (int i = 0; i < integrators(loop.family.plant); ++i) gain /= x;
+  const PlantLags lags = plant_lags(loop);
+  for (int i = 0; i < lags.count; ++i) gain /= 1 + lags.time * lags.time * x;
+  for (int i = 0; i < loop.family.n; ++i) gain /= 1 + tau_f * tau_f * x;
+  return gain;
 }
 
 /// Written out, a polynomial of high degree has lost some digits: Newton's method on log |L| brings them back.
@@ -73,19 +84,26 @@ double polished(const OpenLoop& loop, double omega) {
 
 }  // namespace
 
+Polynomial controller_numerator(const Loop& loop) {
+  const auto K = gains_of(loop);
+  const int last = has_gains(loop.family) ? loop.family.m : 1;
+  return {K.begin() + (has_integral_action(loop.setting) ? 0 : 1), K.begin() + last + 2};
+}
+
 OpenLoop open_loop(const Loop& loop) {
-  const Setting& s = loop.setting;
-  const std::array<double, 3> n = controller_numerator(s);
   std::vector<Polynomial> D(static_cast<std::size_t>(integrators_of(loop)), {0, 1});
-  if (loop.family.plant == Plant::fotd) D.push_back({1, s.tau_1});
-  D.insert(D.end(), static_cast<std::size_t>(loop.family.n), Polynomial{1, s.tau_f});
-  return open_loop({Polynomial(n.begin(), n.end())}, D, 1);
+  const PlantLags lags = plant_lags(loop);
+  D.insert(D.end(), static_cast<std::size_t>(lags.count), Polynomial{1, lags.time});
+  D.insert(D.end(), static_cast<std::size_t>(loop.family.n), Polynomial{1, loop.setting.tau_f});
+  return open_loop({controller_numerator(loop)}, D, 1);
 }
 
 double gain_squared_at(const Loop& loop, double omega) {
+  if (!is_basic(loop.family)) return gain_squared_by_gains(loop, omega);
   const Setting& s = loop.setting;
-  const auto [n0, n1, n2] = controller_numerator(s);
-  const double x = omega * omega, real = n0 - n2 * x;
+  const bool integral = has_integral_action(s);
+  const double n0 = integral ? s.kappa / s.tau_i : s.kappa, n1 = integral ? s.kappa : s.delta;
+  const double n2 = integral ? s.delta : 0, x = omega * omega, real = n0 - n2 * x;
   double denominator = loop.family.plant == Plant::fotd ? 1 + s.tau_1 * s.tau_1 * x : 1;
   for (int i = 0; i < integrators_of(loop); ++i) denominator *= x;
   for (int i = 0; i < loop.family.n; ++i) denominator *= 1 + s.tau_f * s.tau_f * x;

@@ -22,6 +22,9 @@ struct OpenLoop {
   double dead_time = 1;
 };
 
+/// Of C Q: over s with integral action, K_-1 + K_0 s + ...; else K_0 + K_1 s + ...
+Polynomial controller_numerator(const Loop& loop);
+
 /// REQUIRES: the loop is valid.
 OpenLoop open_loop(const Loop& loop);
 

@@ -1,6 +1,7 @@
 #include "engine/loop/parameters.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,15 @@ constexpr std::array<ParameterInfo, kParameterCount> kParameters = {{
     {"tau_f", "normalised filter time constant Tf/Td"},
     {"b", "prefilter numerator, coefficient of s"},
     {"c", "prefilter numerator, coefficient of s^2"},
+    {"tau_j", "normalised time constant of each of the plant's j lags, Tj/Td"},
+    {"K_-1", "normalised integral gain"},
+    {"K_0", "normalised proportional gain"},
+    {"K_1", "normalised gain of the first derivative"},
+    {"K_2", "normalised gain of the second derivative"},
+    {"K_3", "normalised gain of the third derivative"},
+    {"K_4", "normalised gain of the fourth derivative"},
+    {"K_5", "normalised gain of the fifth derivative"},
+    {"K_6", "normalised gain of the sixth derivative"},
 }};
 
 std::string option_name(Parameter parameter) {
@@ -28,6 +38,23 @@ std::string option_name(Parameter parameter) {
 
 /// tau_d says nothing that delta does not say.
 bool is_printed(Parameter parameter) { return parameter != Parameter::tau_d; }
+
+/// K_k K Td^(integrators - k)
+std::string gain_normalisation(Parameter gain, Plant plant) {
+  const int power = integrators(plant) - static_cast<int>(*gain_place(gain)) + 1;
+  const std::string start = fmt::format("{} K", to_string(gain));
+  if (power == 0) return start;
+  const std::string Td = std::abs(power) == 1 ? "Td" : fmt::format("Td^{}", std::abs(power));
+  return start + (power > 0 ? " " : "/") + Td;
+}
+
+/// "0.4,1.3,0.2": from K_-1 up.
+std::string gains_text(const Loop& loop) {
+  std::vector<std::string> parts;
+  for (int i = 0; i <= loop.family.m + 1; ++i)
+    parts.push_back(number_text(loop.setting.gains[static_cast<std::size_t>(i)]));
+  return fmt::format("{}", fmt::join(parts, ","));
+}
 
 }  // namespace
 
@@ -59,11 +86,16 @@ std::string normalisation(Parameter parameter, Plant plant) {
       return "b/Td (prefilter full), b (prefilter pi)";
     case Parameter::c:
       return "c/Td^2";
+    case Parameter::tau_j:
+      return "Tj/Td";
+    default:
+      return gain_normalisation(parameter, plant);
   }
-  return {};
 }
 
 bool applies(Parameter parameter, const LoopFamily& family) {
+  if (const auto place = gain_place(parameter))
+    return static_cast<int>(*place) <= family.m + 1 && has_gains(family);
   switch (parameter) {
     case Parameter::tau_1:
       return family.plant == Plant::fotd;
@@ -73,8 +105,10 @@ bool applies(Parameter parameter, const LoopFamily& family) {
       return family.prefilter != Prefilter::none;
     case Parameter::c:
       return family.prefilter == Prefilter::full;
+    case Parameter::tau_j:
+      return family.plant == Plant::jotd;
     default:
-      return true;
+      return !has_gains(family);
   }
 }
 
@@ -103,8 +137,11 @@ double get(const Setting& setting, Parameter parameter) {
       return setting.b;
     case Parameter::c:
       return setting.c;
+    case Parameter::tau_j:
+      return setting.tau_j;
+    default:
+      return setting.gains[gain_place(parameter).value()];
   }
-  return kNaN;
 }
 
 void set(Setting& setting, Parameter parameter, double value) {
@@ -133,6 +170,12 @@ void set(Setting& setting, Parameter parameter, double value) {
     case Parameter::c:
       setting.c = value;
       return;
+    case Parameter::tau_j:
+      setting.tau_j = value;
+      return;
+    default:
+      setting.gains[gain_place(parameter).value()] = value;
+      return;
   }
 }
 
@@ -146,8 +189,11 @@ std::string setting_text(const Loop& loop) {
 std::string simulate_command(const Loop& loop) {
   std::string command = fmt::format("portrait simulate --plant {} --n {} --prefilter {}",
                                     to_string(loop.family.plant), loop.family.n, to_string(loop.family.prefilter));
+  if (loop.family.plant == Plant::jotd) command += fmt::format(" --j {}", loop.family.j);
+  if (has_gains(loop.family)) command += " --gains=" + gains_text(loop);
   for (const Parameter p : parameters_of(loop.family))
-    if (is_printed(p)) command += fmt::format(" --{} {}", option_name(p), number_text(get(loop.setting, p)));
+    if (is_printed(p) && !gain_place(p))
+      command += fmt::format(" --{} {}", option_name(p), number_text(get(loop.setting, p)));
   return command;
 }
 

@@ -12,8 +12,32 @@
 namespace portrait {
 
 /// In the order in which a setting is printed. tau_d is delta seen through kappa: delta = kappa tau_d.
-enum class Parameter { kappa, tau_i, delta, tau_d, tau_1, tau_f, b, c };
-inline constexpr std::size_t kParameterCount = 8;
+enum class Parameter {
+  kappa,
+  tau_i,
+  delta,
+  tau_d,
+  tau_1,
+  tau_f,
+  b,
+  c,
+  tau_j,
+  K_m1,
+  K_0,
+  K_1,
+  K_2,
+  K_3,
+  K_4,
+  K_5,
+  K_6
+};
+inline constexpr std::size_t kParameterCount = 17;
+
+/// Of a gain K_k the place in `Setting::gains`, k + 1; nothing for the other parameters.
+constexpr std::optional<std::size_t> gain_place(Parameter parameter) {
+  if (parameter < Parameter::K_m1) return std::nullopt;
+  return static_cast<std::size_t>(parameter) - static_cast<std::size_t>(Parameter::K_m1);
+}
 
 struct ParameterInfo {
   std::string_view name;       ///< as users write it
@@ -27,8 +51,8 @@ std::optional<Parameter> parameter_named(std::string_view name);
 /// Kc K Td^2 for dipdt, Kc K Td for ipdt, ...: what the parameter is in the quantities of a real plant.
 std::string normalisation(Parameter parameter, Plant plant);
 
-/// Whether a loop of this family has the parameter: tau_1 only fotd, tau_f only n >= 1, b and c only with a prefilter
-/// that has them.
+/// Whether a loop of this family has the parameter: tau_1 only fotd, tau_j only jotd, tau_f only n >= 1, b and c only with a
+/// prefilter that has them, kappa, tau_i and delta or else the gains up to K_m.
 bool applies(Parameter parameter, const LoopFamily& family);
 
 /// The parameters of this family, in printing order, tau_d among them.

@@ -22,8 +22,8 @@ double unit_of_b(Prefilter prefilter, double Td) { return prefilter == Prefilter
 std::optional<std::string> why_invalid(const RealPlant& plant) {
   if (!std::isfinite(plant.K) || plant.K == 0) return must_be("K", plant.K, "finite and not 0");
   if (!std::isfinite(plant.Td) || plant.Td <= 0) return must_be("Td", plant.Td, "finite and above 0");
-  if (plant.family == Plant::fotd && !(std::isfinite(plant.T1) && plant.T1 > 0))
-    return must_be("T1", plant.T1, "finite and above 0");
+  if (lag_parameter(plant.family) && !(std::isfinite(plant.T1) && plant.T1 > 0))
+    return must_be(lag_name(plant.family), plant.T1, "finite and above 0");
   return std::nullopt;
 }
 
@@ -43,14 +43,15 @@ RealController controller_for(const Loop& loop, const RealPlant& plant) {
 
 Setting normalised(const RealController& controller, const RealPlant& plant, const LoopFamily& family) {
   const double Td = plant.Td;
-  const double kappa = controller.standard.Kc * input_gain(plant);
+  const double kappa = controller.standard.Kc * input_gain(plant), lag = plant.T1 / Td;
   return {.kappa = kappa,
           .tau_i = controller.standard.Ti / Td,
           .delta = kappa * controller.standard.TD / Td,
-          .tau_1 = plant.T1 / Td,
+          .tau_1 = plant.family == Plant::fotd ? lag : 0,
           .tau_f = controller.Tf / Td,
           .b = controller.b / unit_of_b(family.prefilter, Td),
-          .c = controller.c / (Td * Td)};
+          .c = controller.c / (Td * Td),
+          .tau_j = plant.family == Plant::jotd ? lag : 0};
 }
 
 }  // namespace portrait

@@ -13,18 +13,30 @@
 
 #include "engine/loop/forms.h"
 #include "engine/loop/loop.h"
+#include "engine/loop/parameters.h"
 #include "engine/loop/units.h"
 #include "engine/measures/catalogue.h"
 
 namespace portrait {
 
-/// K e^{-Td s}/s^2, K e^{-Td s}/s or K e^{-Td s}/(T1 s + 1).
+/// K e^{-Td s}/s^2, K e^{-Td s}/s or K e^{-Td s}/(T1 s + 1), jotd.
 struct RealPlant {
   Plant family = Plant::dipdt;
   double K = 1;
   double Td = 1;
-  double T1 = 0;  ///< fotd only
+  double T1 = 0;  ///< of fotd; of jotd each lag's Tj
 };
+
+/// How the time constant of its lags is called: T1, Tj, or nothing.
+constexpr std::string_view lag_name(Plant plant) {
+  return plant == Plant::fotd ? "T1" : plant == Plant::jotd ? "Tj" : "";
+}
+/// The same among the normalised parameters.
+constexpr std::optional<Parameter> lag_parameter(Plant plant) {
+  if (plant == Plant::fotd) return Parameter::tau_1;
+  if (plant == Plant::jotd) return Parameter::tau_j;
+  return std::nullopt;
+}
 
 /// Why such a plant cannot be, or nothing.
 std::optional<std::string> why_invalid(const RealPlant& plant);

@@ -51,6 +51,7 @@ struct AtRest {
 }  // namespace
 
 SteadyState rest_after_setpoint_step(const Loop& loop) {
+  if (!is_basic(loop.family)) return rest_after_setpoint_step(general(loop));
   if (integrators(loop.family.plant) > 0) return {.y = 1, .u = 0};
   const double kappa = loop.setting.kappa;
   const double y = has_integral_action(loop.setting) ? 1 : kappa / (1 + kappa);
@@ -58,6 +59,7 @@ SteadyState rest_after_setpoint_step(const Loop& loop) {
 }
 
 SteadyState rest_after_disturbance_step(const Loop& loop) {
+  if (!is_basic(loop.family)) return rest_after_disturbance_step(general(loop));
   const double kappa = loop.setting.kappa;
   if (has_integral_action(loop.setting)) return {.y = 0, .u = -1};
   if (integrators(loop.family.plant) > 0) return {.y = 1 / kappa, .u = -1};
@@ -65,6 +67,7 @@ SteadyState rest_after_disturbance_step(const Loop& loop) {
 }
 
 SteadyState rest_after_output_step(const Loop& loop) {
+  if (!is_basic(loop.family)) return rest_after_output_step(general(loop));
   const double kappa = loop.setting.kappa;
   if (integrators(loop.family.plant) > 0) return {.y = 0, .u = 0};
   if (has_integral_action(loop.setting)) return {.y = 0, .u = -1};

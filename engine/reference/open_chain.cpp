@@ -156,6 +156,7 @@ class Diagram {
 }  // namespace
 
 OpenChain open_chain(const Loop& loop) {
+  if (!is_basic(loop.family)) return open_chain(general(loop));
   PORTRAIT_CHECK(!why_invalid(loop));
   return Diagram(loop).chain();
 }

@@ -38,6 +38,9 @@ std::optional<std::string> why_unavailable(Parameter parameter, const Grid& grid
 std::optional<std::string> why_unavailable(ControllerValue value, const Grid& grid, bool has_plant) {
   if (!has_plant)
     return fmt::format("{} is in the units of a real plant: say which, with --plant K=..,Td=..", to_string(value));
+  if (has_gains(grid.family))
+    return fmt::format("{} is of a PID controller; this portrait has gains: {}", to_string(value),
+                       names(parameters_of(grid.family)));
   if (value == ControllerValue::Tf && !applies(Parameter::tau_f, grid.family))
     return "this portrait has no filter, so there is no Tf";
   return std::nullopt;

@@ -14,8 +14,10 @@ namespace {
 [[noreturn]] void fail(const std::string& message) { throw InputError(Place{"plant"}, message); }
 
 void require_plant(const RealPlant& plant) {
-  if (plant.family == Plant::fotd && plant.T1 == 0) fail("T1 is missing: a fotd plant has K, Td and T1");
-  if (plant.family != Plant::fotd && plant.T1 != 0)
+  const std::string_view lag = lag_name(plant.family);
+  if (!lag.empty() && plant.T1 == 0)
+    fail(fmt::format("{} is missing: a {} plant has K, Td and {}", lag, to_string(plant.family), lag));
+  if (lag.empty() && plant.T1 != 0)
     fail(fmt::format("T1 belongs to fotd; a {} plant has K and Td", to_string(plant.family)));
   if (const auto why = why_invalid(plant)) fail(*why);
 }
@@ -26,14 +28,17 @@ std::optional<std::vector<double>> axis_values(const Grid& grid, Parameter param
   return std::nullopt;
 }
 
-void require_tau_1(double tau_1, const Grid& grid) {
-  const auto values = axis_values(grid, Parameter::tau_1);
-  if (values && !index_of_value(*values, tau_1))
-    fail(fmt::format("T1/Td is {}, which is no value of the axis tau_1 (nearest: {})", number_text(tau_1),
-                     nearest_values(*values, tau_1)));
+void require_lag(const RealPlant& plant, const Grid& grid) {
+  const Parameter lag = lag_parameter(plant.family).value();
+  const double value = plant.T1 / plant.Td;
+  const std::string name = fmt::format("{}/Td", lag_name(plant.family));
+  const auto values = axis_values(grid, lag);
+  if (values && !index_of_value(*values, value))
+    fail(fmt::format("{} is {}, which is no value of the axis {} (nearest: {})", name, number_text(value),
+                     to_string(lag), nearest_values(*values, value)));
   for (const FixedParameter& fixed : grid.fixed)
-    if (fixed.parameter == Parameter::tau_1 && !same_number(fixed.value, tau_1))
-      fail(fmt::format("T1/Td is {}, but tau_1 is {} in the whole portrait", number_text(tau_1),
+    if (fixed.parameter == lag && !same_number(fixed.value, value))
+      fail(fmt::format("{} is {}, but {} is {} in the whole portrait", name, number_text(value), to_string(lag),
                        number_text(fixed.value)));
 }
 
@@ -131,17 +136,21 @@ void require_fits(const QueryUnits& units, const Grid& grid) {
   require_step("w", units.steps.w);
   require_step("d", units.steps.d);
   if (!units.plant) return;
+  if (has_gains(grid.family))
+    fail("a portrait of gains is asked in normalised numbers: its parameters' attribute `normalisation` leads out");
   const RealPlant& plant = *units.plant;
   if (plant.family != grid.family.plant)
     fail(fmt::format("it is {}, but the portrait's plant is {}", to_string(plant.family),
                      to_string(grid.family.plant)));
   require_plant(plant);
-  if (plant.family == Plant::fotd) require_tau_1(plant.T1 / plant.Td, grid);
+  if (lag_parameter(plant.family)) require_lag(plant, grid);
 }
 
 std::optional<double> slice_of(const QueryUnits& units, const Grid& grid) {
-  const auto values = axis_values(grid, Parameter::tau_1);
-  if (!values || !units.plant) return std::nullopt;
+  const auto lag = lag_parameter(grid.family.plant);
+  if (!lag || !units.plant) return std::nullopt;
+  const auto values = axis_values(grid, *lag);
+  if (!values) return std::nullopt;
   return values->at(index_of_value(*values, units.plant->T1 / units.plant->Td).value());
 }
 

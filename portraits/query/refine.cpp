@@ -57,7 +57,8 @@ class Refinement {
         fail_at(constraint.typed, 0, "leaves nothing to refine: give it as <= or >=");
       if (parameter) fixed.push_back(*parameter);
     }
-    if (conditions.units.plant) fixed.push_back(Parameter::tau_1);
+    if (conditions.units.plant)
+      fixed.push_back(lag_parameter(conditions.units.plant->family).value_or(Parameter::tau_1));
     for (const Axis& axis : grid.axes) {
       if (std::find(fixed.begin(), fixed.end(), axis.parameter()) != fixed.end()) continue;
       if (const auto free = free_axis(axis, from)) free_.push_back(*free);

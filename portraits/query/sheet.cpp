@@ -48,9 +48,9 @@ Sheet::Sheet(const ColumnSource& source, const QueryUnits& units, const std::vec
 Outlook Sheet::in_slice(std::uint64_t tile) const {
   if (!slice_) return Outlook::always;
   const SettingRange range = rows_.range(tile);
-  const Interval tau_1 = parameters_.bound(Parameter::tau_1, range.first, range.count);
-  if (tau_1.low > *slice_ || tau_1.high < *slice_) return Outlook::never;
-  return tau_1.low == tau_1.high ? Outlook::always : Outlook::maybe;
+  const Interval lag = parameters_.bound(sliced_parameter(), range.first, range.count);
+  if (lag.low > *slice_ || lag.high < *slice_) return Outlook::never;
+  return lag.low == lag.high ? Outlook::always : Outlook::maybe;
 }
 
 std::uint64_t Sheet::most_eligible(std::uint64_t tile) const {
@@ -111,8 +111,8 @@ const std::vector<Status>& TilePage::statuses() {
 
 bool TilePage::is_in_slice(std::size_t i) {
   if (!sheet_.slice()) return true;
-  require(Parameter::tau_1);
-  return columns_[Parameter::tau_1][i] == *sheet_.slice();
+  require(sheet_.sliced_parameter());
+  return columns_[sheet_.sliced_parameter()][i] == *sheet_.slice();
 }
 
 void TilePage::read(Measure measure, std::vector<double>& values) {

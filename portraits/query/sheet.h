@@ -42,6 +42,8 @@ class Sheet {
 
   /// Whether the tile belongs to the slice tau_1 = T1/Td of a plant; always, when there is no slice.
   Outlook in_slice(std::uint64_t tile) const;
+  /// tau_1, or tau_j. REQUIRES: there is a slice.
+  Parameter sliced_parameter() const { return lag_parameter(units_.plant->family).value(); }
   /// Nothing when the source does not know.
   const StatusCounts* status_counts(std::uint64_t tile) const {
     return status_counts_.empty() ? nullptr : &status_counts_[tile];

@@ -35,11 +35,18 @@ class Cutter {
     if (at_ == text_.size()) return {TokenKind::end, at_, {}};
     const char c = text_[at_];
     if (is_digit(c) || c == '.') return number();
-    if (is_letter(c)) return taken(TokenKind::name, word_length(at_));
+    if (is_letter(c)) return taken(TokenKind::name, name_length());
     return symbol();
   }
 
  private:
+  /// "K_-1" is one name: no other begins with K_ alone.
+  std::size_t name_length() const {
+    const std::size_t length = word_length(at_);
+    const bool integral_gain = text_.substr(at_, length) == "K_" && text_.substr(at_ + length, 2) == "-1";
+    return integral_gain ? length + 2 : length;
+  }
+
   std::size_t word_length(std::size_t from) const {
     std::size_t end = from;
     while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]))) ++end;

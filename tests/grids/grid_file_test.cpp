@@ -182,7 +182,7 @@ TEST(GridFile, AnAxisMayBeAsFineAs15DigitsTellApart) {
 }
 
 TEST(GridFile, EmptyTextMissesItsFirstKey) {
-  EXPECT_EQ(complaint(""), "grid.toml:1:1: missing key \"plant\": one of dipdt, ipdt, fotd");
+  EXPECT_EQ(complaint(""), "grid.toml:1:1: missing key \"plant\": one of dipdt, ipdt, fotd, jotd");
 }
 
 TEST(GridFile, BytesThatAreNoTextAreRefused) {

@@ -93,6 +93,18 @@ class SimulateGeneral(ProgramTest):
         self.assertEqual(noise["controller"], "sampled")
         self.assertAlmostEqual(noise["d"]["TV_u"]["mean"], 800 * 0.4 * 0.1 * 2 / math.sqrt(math.pi), delta=3)
 
+    def test_a_sampling_time_that_does_not_divide_the_dead_time_is_said(self):
+        says = "the sampling time does not divide the dead time: nothing is rounded"
+        base = [*NOISY]
+        at = base.index("--sampling") + 1
+        odd = base[:at] + ["0.03"] + base[at + 1:]
+        for controller in ((), ("--sampled",)):
+            self.assertIn(says, self.run_program("simulate", *odd, *controller).out)
+            self.assertNotIn(says, self.run_program("simulate", *base, *controller).out)
+        near = base[:at] + ["0.05"] + base[at + 1:]
+        found = [self.run_program("simulate", *line, "--sampled", "--json").json["noise"] for line in (odd, near)]
+        self.assertEqual([n["sampling_divides_dead_time"] for n in found], [False, True])
+
     def test_wrong_arguments(self):
         tf = ("simulate", "--plant", "tf:1/1,1")
         pid = ("--pid", "standard:Kc=1,Ti=1")
@@ -114,7 +126,7 @@ class SimulateGeneral(ProgramTest):
             ((*tf, "--pid", "standard:Ti=1"), "--pid: Kc is missing"),
             ((*tf, *pid, "--prefilter", "tf:1/1,-1"), "the prefilter has a pole at s = 1: it is not stable"),
             ((*tf, *pid, "--method", "kernel"),
-             "--method kernel: the kernel takes the normalised families alone; leave --method out"),
+             "--method kernel: here only of dipdt, ipdt and fotd; jotd and gains it sweeps from a grid file; leave --method out"),
             ((*tf,), "the controller is given by one of --kappa (with --tau-i, --delta), --pid, --gains, --controller"),
             (("simulate", "--plant", "jotd", "--j", "9", "--tau-j", "1", "--kappa", "1"),
              "--j: jotd has 1 to 8 equal lags (it is 9)"),

@@ -1,0 +1,158 @@
+/// family_rate [REPETITIONS]
+///
+/// What a sweep of many lags under a controller given by its gains is worth against the plain step loop that anyone would
+/// write for it: jotd of order 3, controllers of K_-1 .. K_3 with the filter of order 3, tau_f = 0.1, horizon 51, 2,400
+/// settings, both steps and all measures but noise_gain. The plain loop takes 50 steps a dead time, lags by their exact
+/// exponential, and leaves margins and shapes out: it gives IAE and TV. Its answers are compared first, to 5 %. One thread;
+/// medians of interleaved repetitions.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/sweep/method.h"
+#include "grids/grid_file.h"
+
+namespace portrait {
+namespace {
+
+constexpr const char* kGrid = R"(plant = "jotd"
+j = 3
+n = 3
+horizon = 51
+[parameters]
+K_-1 = { from = 0.4, to = 0.5, count = 10 }
+K_0 = { from = 1.3, to = 1.6, count = 10 }
+K_1 = { from = 1.4, to = 1.7, count = 6 }
+K_2 = { from = 0.5, to = 0.65, count = 4 }
+K_3 = 0.01
+tau_j = 1
+tau_f = 0.1
+)";
+
+constexpr int kSteps = 50, kOrder = 3;
+
+struct Plain {
+  double IAE = 0, TV_u = 0, TV_y = 0;
+};
+
+/// One response: w or d is 1. `delayed` holds one dead time of outputs.
+Plain plain_response(const Setting& s, double w, double d, double horizon, std::array<double, kSteps>& delayed) {
+  const double h = 1.0 / kSteps, filter = -std::expm1(-h / s.tau_f), lag = -std::expm1(-h / s.tau_j);
+  std::array<double, kOrder> v{}, z{};
+  delayed.fill(0);
+  double integral = 0, u_before = 0, y_before = 0;
+  Plain found;
+  const int steps = static_cast<int>(std::lround(horizon * kSteps));
+  for (int i = 0; i < steps; ++i) {
+    const double y = delayed[static_cast<std::size_t>(i % kSteps)], e = w - y;
+    // s^k F^m e by differences of the filter's lags
+    std::array<double, kOrder + 1> g{e, v[0], v[1], v[2]};
+    double u = s.gains[0] * integral + s.gains[1] * v[kOrder - 1];
+    for (int k = 1; k <= kOrder; ++k) {
+      for (int l = kOrder; l >= k; --l)
+        g[static_cast<std::size_t>(l)] =
+            (g[static_cast<std::size_t>(l) - 1] - g[static_cast<std::size_t>(l)]) / s.tau_f;
+      u += s.gains[static_cast<std::size_t>(k) + 1] * g[kOrder];
+    }
+    integral += h * v[kOrder - 1];
+    for (int l = kOrder; l-- > 0;) {
+      const auto at = static_cast<std::size_t>(l);
+      v[at] += filter * ((l == 0 ? e : v[at - 1]) - v[at]);
+      z[at] += lag * ((l == 0 ? u + d : z[at - 1]) - z[at]);
+    }
+    delayed[static_cast<std::size_t>(i % kSteps)] = z[kOrder - 1];
+    found.IAE += h * std::abs(e);
+    found.TV_u += std::abs(u - u_before), found.TV_y += std::abs(y - y_before);
+    u_before = u, y_before = y;
+  }
+  return found;
+}
+
+std::array<Plain, 2> plain(const Setting& s, double horizon) {
+  std::array<double, kSteps> delayed;
+  return {plain_response(s, 1, 0, horizon, delayed), plain_response(s, 0, 1, horizon, delayed)};
+}
+
+struct Bench {
+  Grid grid = parse_grid(kGrid, "family_rate");
+  std::vector<Setting> settings;
+  std::vector<SettingMeasured> measured;
+  std::vector<std::array<Plain, 2>> plainly;
+
+  Bench() : measured(setting_count(grid)), plainly(setting_count(grid)) {
+    for (std::uint64_t i = 0; i < setting_count(grid); ++i) settings.push_back(setting_at(grid, i));
+  }
+  void by_engine() { measure_settings(Method::kernel, grid.family, grid.horizon, {}, settings, measured); }
+  void by_plain_loop() {
+    for (std::size_t i = 0; i < settings.size(); ++i) plainly[i] = plain(settings[i], grid.horizon.dead_times);
+  }
+
+  /// The largest difference of IAE and TV, as a part.
+  double difference() const {
+    double worst = 0;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const MeasureRow& m = measured[i].measures;
+      if (measured[i].status != Status::settled || measured[i].method != Method::kernel)
+        throw std::runtime_error("a setting is not settled, or was left to the reference");
+      const auto compare = [&](double mine, double theirs) {
+        worst = std::max(worst, std::abs(mine / theirs - 1));
+      };
+      compare(plainly[i][0].IAE, m[Measure::IAE_w]), compare(plainly[i][1].IAE, m[Measure::IAE_d]);
+      compare(plainly[i][0].TV_y, m[Measure::TV_yw]), compare(plainly[i][1].TV_y, m[Measure::TV_yd]);
+      compare(plainly[i][1].TV_u, m[Measure::TV_ud]);
+    }
+    return worst;
+  }
+};
+
+double seconds(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+void run(int repetitions) {
+  Bench bench;
+  bench.by_engine();
+  bench.by_plain_loop();
+  const double difference = bench.difference();
+  if (difference > 0.05) throw std::runtime_error(fmt::format("the plain loop differs by {:.3g}", difference));
+  std::vector<double> engine, loop;
+  for (int i = 0; i < repetitions; ++i) {
+    engine.push_back(seconds([&] { bench.by_engine(); }));
+    loop.push_back(seconds([&] { bench.by_plain_loop(); }));
+  }
+  const auto count = static_cast<double>(bench.settings.size());
+  fmt::print("{} settings of jotd 3 under K_-1 .. K_3, n = 3, horizon 51, one thread, {} repetitions\n",
+             bench.settings.size(), repetitions);
+  fmt::print("  {:<28} {:>10.0f} settings/s\n", method_text(Method::kernel), count / median(engine));
+  fmt::print("  {:<28} {:>10.0f} settings/s, differs by {:.2g}\n", "plain loop, 50 steps", count / median(loop),
+             difference);
+  fmt::print("  ratio {:.2f}\n", median(loop) / median(engine));
+}
+
+}  // namespace
+}  // namespace portrait
+
+int main(int count, char** arguments) {
+  try {
+    portrait::run(count > 1 ? std::max(1, std::atoi(arguments[1])) : 11);
+    return 0;
+  } catch (const std::exception& failure) {
+    fmt::print(stderr, "family_rate: {}\n", failure.what());
+    return 1;
+  }
+}
