@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/base/check.h"
 #include "engine/loop/loop.h"
 #include "tests/oracle/power_series.h"
 
@@ -125,6 +126,9 @@ class MethodOfSteps {
         break;
       case Plant::fotd:
         output_.slope(j, (input - output_[j]) / tau_1_);
+        break;
+      case Plant::jotd:
+        PORTRAIT_CHECK(false);  // this oracle has one lag at most
     }
   }
 

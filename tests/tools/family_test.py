@@ -68,7 +68,7 @@ class Families(program.ProgramTest):
         self.assertEqual(real["settings"], plain["settings"])
         self.assertAlmostEqual(real["measures"]["IAE_w"], 3 * plain["measures"]["IAE_w"], places=9)
         self.assertAlmostEqual(real["controller"]["standard"]["Kc"], plain["settings"]["kappa"] / 2, places=12)
-        self.assertIn("Tj is missing", self.run_program(*query, "--plant", "K=2,Td=3").err + "")
+        self.assertIn("--plant: Tj must be finite and above 0", self.run_program(*query, "--plant", "K=2,Td=3").err)
 
     def test_gains_are_axes(self):
         summary = self.swept(GAINS_GRID)
@@ -98,8 +98,8 @@ class Families(program.ProgramTest):
         self.refused(JOTD_GRID.replace("j = 4", "j = 9"), 'family.toml:2:5: "j" must be 1 .. 8 (it is 9)')
         self.refused(JOTD_GRID.replace("tau_j", "tau_1"), '"tau_1" belongs to plant "fotd", not to "jotd"')
         self.refused(program.SMALL_GRID + "tau_j = 1\n", '"tau_j" belongs to plant "jotd", not to "dipdt"')
-        self.refused(GAINS_GRID.replace("n = 3", "n = 2"), "gains up to K_3 need a filter of order n >= 3 (n is 2)")
-        self.refused(GAINS_GRID.replace("n = 3", 'n = 3\nprefilter = "full"'), 'beside gains it must be "none"')
+        self.refused(GAINS_GRID.replace("\nn = 3\n", "\nn = 2\n"), "gains up to K_3 need a filter of order n >= 3 (n is 2)")
+        self.refused(GAINS_GRID.replace("\nn = 3\n", '\nn = 3\nprefilter = "full"\n'), 'beside gains it must be "none"')
         self.refused(GAINS_GRID + "kappa = 1\n", '"kappa" has no place beside gains K_-1, K_0, ...: give one or the other')
         self.refused(GAINS_GRID.replace("from = 0.2", "from = -0.2"), "K_-1 must be not below 0")
         self.refused(GAINS_GRID.replace("K_0 = { from = 0.6, to = 1.2, count = 4 }\n", ""), "the proportional gain")

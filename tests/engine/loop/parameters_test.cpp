@@ -7,8 +7,10 @@
 namespace portrait {
 namespace {
 
-constexpr std::array kAll = {Parameter::kappa, Parameter::tau_i, Parameter::delta, Parameter::tau_d,
-                             Parameter::tau_1, Parameter::tau_f, Parameter::b,     Parameter::c};
+constexpr std::array kAll = {
+    Parameter::kappa, Parameter::tau_i, Parameter::delta, Parameter::tau_d, Parameter::tau_1, Parameter::tau_f,
+    Parameter::b,     Parameter::c,     Parameter::tau_j, Parameter::K_m1,  Parameter::K_0,   Parameter::K_1,
+    Parameter::K_2,   Parameter::K_3,   Parameter::K_4,   Parameter::K_5,   Parameter::K_6};
 static_assert(kAll.size() == kParameterCount);
 
 std::vector<std::string_view> names_of(const LoopFamily& family) {
@@ -37,6 +39,10 @@ TEST(Parameters, AFamilyHasThoseItUses) {
   EXPECT_EQ(names_of({Plant::ipdt, 0, Prefilter::pi}), (Names{"kappa", "tau_i", "delta", "tau_d", "b"}));
   EXPECT_EQ(names_of({Plant::fotd, 2, Prefilter::none}),
             (Names{"kappa", "tau_i", "delta", "tau_d", "tau_1", "tau_f"}));
+  EXPECT_EQ(names_of({.plant = Plant::jotd, .n = 1, .prefilter = Prefilter::none, .j = 3}),
+            (Names{"kappa", "tau_i", "delta", "tau_d", "tau_f", "tau_j"}));
+  EXPECT_EQ(names_of({.plant = Plant::jotd, .n = 2, .prefilter = Prefilter::none, .j = 3, .m = 2}),
+            (Names{"tau_f", "tau_j", "K_-1", "K_0", "K_1", "K_2"}));
 }
 
 TEST(Parameters, AreNormalisedByTheDeadTimeAndTheGain) {
@@ -47,6 +53,10 @@ TEST(Parameters, AreNormalisedByTheDeadTimeAndTheGain) {
   EXPECT_EQ(normalisation(Parameter::delta, Plant::ipdt), "Kd K");
   EXPECT_EQ(normalisation(Parameter::delta, Plant::fotd), "Kd K/Td");
   EXPECT_EQ(normalisation(Parameter::tau_i, Plant::fotd), "Ti/Td");
+  EXPECT_EQ(normalisation(Parameter::K_m1, Plant::jotd), "K_-1 K Td");
+  EXPECT_EQ(normalisation(Parameter::K_0, Plant::jotd), "K_0 K");
+  EXPECT_EQ(normalisation(Parameter::K_3, Plant::jotd), "K_3 K/Td^3");
+  EXPECT_EQ(normalisation(Parameter::K_m1, Plant::dipdt), "K_-1 K Td^3");
   for (const Parameter p : kAll) EXPECT_FALSE(normalisation(p, Plant::dipdt).empty());
 }
 

@@ -101,6 +101,8 @@ Complex plant_at(const RealPlant& plant, Complex s) {
       return delayed / s;
     case Plant::fotd:
       return delayed / (plant.T1 * s + 1.0);
+    case Plant::jotd:
+      break;
   }
   return kNaN;
 }
