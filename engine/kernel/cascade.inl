@@ -162,16 +162,19 @@ class Chain<kernel::PlantKind::cascade, filtered> : public DerivedSources {
   void enter(const Derivatives&) {}
   void cut_at(int) {}
 
+  /// A panel before anything has reached the controller.
+  void run_plant_alone(const Panel& panel, Output& z) {
+    z.begin();
+    set_zero(z.u), set_zero(z.u1);
+    run_plant<kDegree>(panel, z);
+  }
+
   template <int degree>
   void run(const Panel& panel, const Derivatives& h, const Series&, Output& z) {
     controller_.template run<degree>(panel, h, z.u);
     set_slope_of_input<degree>(panel, z);
-    z.u[0] += load;
-    plant_.template run<degree>(panel, z.u, z.u1, !filtered, z);
-    z.u[0] = z.u[0] - load;
+    run_plant<degree>(panel, z);
     u1_rest = rest_bound<degree>(z.u1, 1);
-    z.rest = rest_bound<degree>(z.y, 1), z.slope_rest = rest_bound<degree>(z.y1, 1);
-    z.sums = error_sums_of(z.y);
   }
 
   template <int degree>
@@ -180,6 +183,15 @@ class Chain<kernel::PlantKind::cascade, filtered> : public DerivedSources {
   void complete_input(const Panel&, Output&) {}
 
  private:
+  template <int degree>
+  void run_plant(const Panel& panel, Output& z) {
+    z.u[0] += load;
+    plant_.template run<degree>(panel, z.u, z.u1, !filtered, z);
+    z.u[0] = z.u[0] - load;
+    z.rest = rest_bound<degree>(z.y, 1), z.slope_rest = rest_bound<degree>(z.y1, 1);
+    z.sums = error_sums_of(z.y);
+  }
+
   /// u' of the series of u: it says where u turns, and no response is made of it but the y'' of an ideal derivative.
   template <int degree>
   static void set_slope_of_input(const Panel& panel, Output& z) {

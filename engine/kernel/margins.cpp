@@ -28,10 +28,10 @@ LoopMargins margins_of(const MarginResult& found, std::size_t lane) {
   return m;
 }
 
-LoopMargins one_by_one(const Loop& loop) {
+LoopMargins one_by_one(const Loop& loop, bool wanted = true) {
   LoopMargins m;
   m.stable = is_stable(open_loop(loop));
-  if (m.stable) measure_loop(loop, std::nullopt, m.measures);
+  if (m.stable && wanted) measure_loop(loop, std::nullopt, m.measures);
   return m;
 }
 
@@ -41,15 +41,15 @@ class Search {
          std::span<LoopMargins> results)
       : implementation_(implementation), family_(family), settings_(settings), results_(results) {}
 
-  void run() {
-    if (plant_kind(family_) == PlantKind::cascade) return find_one_by_one();
+  void run(bool wanted) {
+    if (plant_kind(family_) == PlantKind::cascade) return find_one_by_one(wanted);
     find_alike(false);
     find_alike(true);
   }
 
  private:
-  void find_one_by_one() {
-    for (std::size_t i = 0; i < settings_.size(); ++i) results_[i] = one_by_one({family_, settings_[i]});
+  void find_one_by_one(bool wanted) {
+    for (std::size_t i = 0; i < settings_.size(); ++i) results_[i] = one_by_one({family_, settings_[i]}, wanted);
   }
 
   void find_alike(bool integral) {
@@ -87,9 +87,9 @@ class Search {
 }  // namespace
 
 void find_margins(const Implementation& implementation, const LoopFamily& family, std::span<const Setting> settings,
-                  std::span<LoopMargins> results) {
+                  std::span<LoopMargins> results, bool wanted) {
   PORTRAIT_CHECK_EQ(settings.size(), results.size());
-  Search(implementation, family, settings, results).run();
+  Search(implementation, family, settings, results).run(wanted);
 }
 
 }  // namespace portrait::kernel

@@ -25,8 +25,9 @@ struct LoopMargins {
   MeasureRow measures;  ///< kMarginMeasures of a stable loop, all else NaN
 };
 
+/// Families of many lags or of gains are searched one by one, and only for stability where margins are not `wanted`.
 /// REQUIRES: settings valid; as many results.
 void find_margins(const Implementation& implementation, const LoopFamily& family, std::span<const Setting> settings,
-                  std::span<LoopMargins> results);
+                  std::span<LoopMargins> results, bool wanted = true);
 
 }  // namespace portrait::kernel

@@ -29,10 +29,10 @@ void measure_stable(const Implementation& implementation, const LoopFamily& fami
 }  // namespace
 
 void measure(const Implementation& implementation, const LoopFamily& family, Horizon horizon,
-             std::span<const Setting> settings, std::span<Measured> results) {
+             std::span<const Setting> settings, std::span<Measured> results, bool with_margins) {
   PORTRAIT_CHECK_EQ(settings.size(), results.size());
   std::vector<LoopMargins> margins(settings.size());
-  find_margins(implementation, family, settings, margins);
+  find_margins(implementation, family, settings, margins, with_margins);
   const bool all_stable =
       std::all_of(margins.begin(), margins.end(), [](const LoopMargins& m) { return m.stable; });
   if (all_stable)

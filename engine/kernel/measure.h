@@ -12,8 +12,8 @@
 
 namespace portrait::kernel {
 
-/// REQUIRES: settings valid; as many results.
+/// Without `with_margins` those that would be searched one by one are left NaN. REQUIRES: settings valid; as many results.
 void measure(const Implementation& implementation, const LoopFamily& family, Horizon horizon,
-             std::span<const Setting> settings, std::span<Measured> results);
+             std::span<const Setting> settings, std::span<Measured> results, bool with_margins = true);
 
 }  // namespace portrait::kernel

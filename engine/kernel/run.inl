@@ -71,14 +71,13 @@ class Run {
   bool sees_nothing_at_first() const { return disturbed && span_.late_from > 1; }
 
   /// On the second dead time the controller sees the plant's answer to a step: y and y' are positive, and so are, behind the
-  /// lags of the filter, v and v'; with an integrator in the plant also y'' and v''. No gain is negative.
+  /// lags of the filter, v and v'; with an integrator in the plant also y'' and v''. No gain is negative. A cascade's controller
+  /// may have higher derivatives, and negative gains.
   Course course_of_derived(int k) const {
     const bool rises = disturbed && both_ && derived_.is_scaled() && k == 1;
     return rises ? Course::rises : Course::open;
   }
-  Course course_of_input(int k) const {
-    return disturbed && plant != PlantKind::fotd && k == 1 ? Course::falls : Course::open;
-  }
+  Course course_of_input(int k) const { return disturbed && !kOwnInput && k == 1 ? Course::falls : Course::open; }
   /// One dead time before.
   Course course_of_output(int k) const { return disturbed && k == 1 ? Course::rises : Course::open; }
 

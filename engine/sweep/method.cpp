@@ -7,6 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/isa/dispatch.h"
+#include "engine/kernel/margins.h"
 #include "engine/kernel/measure.h"
 #include "engine/loop/noise_gain.h"
 #include "engine/loop/parameters.h"
@@ -29,7 +30,7 @@ SettingMeasured measured_by_reference(const Loop& loop, Horizon horizon, const E
 void measure_by_kernel(const LoopFamily& family, Horizon horizon, const Extras& extras,
                        std::span<const Setting> settings, std::span<SettingMeasured> results) {
   std::vector<kernel::Measured> found(settings.size());
-  kernel::measure(chosen_implementation(), family, horizon, settings, found);
+  kernel::measure(chosen_implementation(), family, horizon, settings, found, extras.margins);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const kernel::Measured& m = found[i];
     const Loop loop{family, settings[i]};
@@ -61,8 +62,10 @@ Method method_for(std::span<const Measure> measures) {
 }
 
 Extras extras_for(std::span<const Measure> measures, std::optional<double> sampling) {
-  Extras extras;
+  Extras extras{.margins = false};
   for (const Measure m : measures) {
+    const auto& of_margins = kernel::kMarginMeasures;
+    if (std::find(of_margins.begin(), of_margins.end(), m) != of_margins.end()) extras.margins = true;
     if (m == Measure::noise_gain) extras.sampling = sampling;
     if (info(m).step == 'o') extras.output_step = true;
   }

@@ -47,6 +47,8 @@ Method method_for(std::span<const Measure> measures);
 struct Extras {
   std::optional<double> sampling = std::nullopt;  ///< dead times over which noise is held, for noise_gain
   bool output_step = false;                       ///< the measures of the step o
+  bool margins =
+      true;  ///< Ms to DM; without them a family whose margins are searched one by one is many times faster
 };
 /// What these measures need of them.
 Extras extras_for(std::span<const Measure> measures, std::optional<double> sampling);

@@ -114,7 +114,8 @@ TEST(Cascade, AnAutomaticHorizonEndsWhereNothingIsLeft) {
     const auto slow = reference::measure(loop, Horizon::until_settled());
     EXPECT_EQ(fast.status, slow.status) << simulate_command(loop);
     for (const Measure m : {Measure::IAE_w, Measure::IAE_d, Measure::TV_uw, Measure::TV_yd})
-      EXPECT_LT(error_of(fast.measures[m], slow.measures[m]), 1e-7) << to_string(m) << " of " << simulate_command(loop);
+      EXPECT_LT(error_of(fast.measures[m], slow.measures[m]), 1e-7)
+          << to_string(m) << " of " << simulate_command(loop);
   }
 }
 
@@ -157,6 +158,25 @@ TEST(Cascade, EqualsTheBasicFamilies) {
     const auto found = measure_one(implementation, loop, Horizon::fixed(25));
     for (const Measure m : response_measures())
       EXPECT_LT(error_of(found.measures[m], expected.measures[m]), 1e-9) << to_string(m);
+  }
+}
+
+TEST(Cascade, WithoutMarginsAllElseIsTheSame) {
+  oracle::Random random(19);
+  const auto& implementation = *available_implementations().back();
+  for (int i = 0; i < 20; ++i) {
+    Loop loop = random_cascade(random);
+    if (i % 4 == 0)
+      for (double& K : loop.setting.gains) K *= 8;  // most of these are unstable
+    kernel::Measured with, without;
+    kernel::measure(implementation, loop.family, Horizon::fixed(20), {&loop.setting, 1}, {&with, 1});
+    kernel::measure(implementation, loop.family, Horizon::fixed(20), {&loop.setting, 1}, {&without, 1}, false);
+    EXPECT_EQ(with.status, without.status);
+    for (const Measure m : response_measures())
+      EXPECT_EQ(error_of(without.measures[m], with.measures[m]), 0) << to_string(m);
+    const bool searched = loop.family.plant != Plant::jotd || loop.family.j > 1 || has_gains(loop.family);
+    EXPECT_TRUE(!searched || std::isnan(without.measures[Measure::Ms]));
+    EXPECT_EQ(std::isnan(with.measures[Measure::Ms]), with.status == Status::unstable);
   }
 }
 
