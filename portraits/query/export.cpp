@@ -32,7 +32,8 @@ Export::Export(const ColumnSource& source, const ExportRequest& request)
   const Grid& grid = source.grid();
   require_answerable(request.conditions, grid);
   for (const auto& [parameter, value] : request.slice) fix(parameter, value);
-  if (const std::optional<double> tau_1 = slice_of(request.conditions.units, grid)) fix(Parameter::tau_1, *tau_1);
+  if (const std::optional<double> lag = slice_of(request.conditions.units, grid))
+    fix(lag_parameter(grid.family.plant).value(), *lag);
   add_columns();
 }
 
