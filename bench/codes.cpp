@@ -41,7 +41,7 @@ void run_engine(const Case& of, std::span<const Setting> settings, MeasureColumn
     measure_settings(Method::kernel, of.grid.family, of.grid.horizon, {}, settings.subspan(first, count),
                      std::span(measured).first(count));
     for (std::size_t i = 0; i < count; ++i) {
-      if (measured[i].method != Method::kernel)
+      if (method_of(measured[i]) != Method::kernel)
         throw std::runtime_error(of.name + ": left to the reference method");
       columns.set(first + i, measured[i].status, measured[i].measures);
     }

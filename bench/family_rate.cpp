@@ -103,7 +103,7 @@ struct Bench {
     double worst = 0;
     for (std::size_t i = 0; i < settings.size(); ++i) {
       const MeasureRow& m = measured[i].measures;
-      if (measured[i].status != Status::settled || measured[i].method != Method::kernel)
+      if (measured[i].status != Status::settled || method_of(measured[i]) != Method::kernel)
         throw std::runtime_error("a setting is not settled, or was left to the reference");
       const auto compare = [&](double mine, double theirs) {
         worst = std::max(worst, std::abs(mine / theirs - 1));

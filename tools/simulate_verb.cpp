@@ -91,7 +91,7 @@ void trace_if_asked(const SimulateArguments& a, const Loop& loop, const Horizon&
                             stable ? "" : " (the loop is unstable)"));
 }
 
-Method method_of(const SimulateArguments& a) {
+Method method_asked_for(const SimulateArguments& a) {
   return a.method.empty() ? Method::kernel : method_argument("--method", a.method);
 }
 
@@ -105,14 +105,14 @@ void add_further_measures(const Loop& loop, const Horizon& horizon, SettingMeasu
 }
 
 SettingMeasured measure(const SimulateArguments& a, const Loop& loop, const Horizon& horizon) {
-  const Method method = method_of(a);
+  const Method method = method_asked_for(a);
   const std::optional<double> sampling = sampling_argument("--sampling", a.sampling);
   SettingMeasured measured;
   measure_settings(method, loop.family, horizon, {.sampling = sampling, .output_step = true}, {&loop.setting, 1},
                    {&measured, 1});
-  if (measured.method != method)
+  if (method_of(measured) != method)
     print_message("note: too stiff for the kernel's panels, measured by the reference method");
-  if (measured.method == Method::kernel && measured.status != Status::unstable)
+  if (method_of(measured) == Method::kernel && measured.status != Status::unstable)
     add_further_measures(loop, horizon, measured);
   return measured;
 }
@@ -137,7 +137,7 @@ int simulate(const SimulateArguments& a) {
                 {"measures", json_measures(measured.measures, measures)},
                 {"status", to_string(measured.status)},
                 {"horizon", measured.horizon},
-                {"method", method_text(measured.method)}});
+                {"method", method_text(method_of(measured))}});
     return kDone;
   }
   print_text(loop_text(loop) +

@@ -31,7 +31,10 @@ LoopMargins margins_of(const MarginResult& found, std::size_t lane) {
 LoopMargins one_by_one(const Loop& loop, bool wanted = true) {
   LoopMargins m;
   m.stable = is_stable(open_loop(loop));
-  if (m.stable && wanted) measure_loop(loop, std::nullopt, m.measures);
+  if (!m.stable || !wanted) return m;
+  MeasureRow all;
+  measure_loop(loop, std::nullopt, all);
+  for (const Measure measure : kMarginMeasures) m.measures[measure] = all[measure];
   return m;
 }
 

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <span>
 
 #include "engine/kernel/pack.h"
@@ -20,9 +22,27 @@ namespace portrait::kernel {
 inline constexpr std::array kMarginMeasures = {Measure::Ms, Measure::Mt,     Measure::Ms_omega, Measure::Mt_omega,
                                                Measure::GM, Measure::GM_low, Measure::PM,       Measure::DM};
 
+/// One value for each of kMarginMeasures.
+class MarginRow {
+ public:
+  MarginRow() { values_.fill(std::numeric_limits<double>::quiet_NaN()); }
+  /// REQUIRES: one of kMarginMeasures.
+  double& operator[](Measure measure) { return values_[place(measure)]; }
+  double operator[](Measure measure) const { return values_[place(measure)]; }
+
+ private:
+  static constexpr std::size_t place(Measure measure) {
+    std::size_t i = 0;
+    while (kMarginMeasures[i] != measure) ++i;
+    return i;
+  }
+
+  std::array<double, kMarginMeasures.size()> values_;
+};
+
 struct LoopMargins {
   bool stable = false;
-  MeasureRow measures;  ///< kMarginMeasures of a stable loop, all else NaN
+  MarginRow measures;  ///< of a stable loop; else NaN
 };
 
 /// Families of many lags or of gains are searched one by one, and only for stability where margins are not `wanted`.

@@ -188,7 +188,7 @@ class Measurement {
         horizon_(horizon),
         results_(results) {
     tasks_.reserve(settings.size());
-    for (Measured& m : results) m.measures = {};
+    for (Measured& m : results) m.measures.clear();
     for (std::size_t i = 0; i < settings.size(); ++i) tasks_.push_back({i, kind_of(family, settings[i], horizon)});
   }
 

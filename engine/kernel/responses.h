@@ -25,7 +25,7 @@ struct Measured {
   Status status = Status::not_computed;
   MeasureRow measures;    ///< those of the responses, the others NaN
   double horizon = 0;     ///< dead times simulated; 0 when unstable
-  bool resolved = false;  ///< false: not even the finest panels resolve this setting
+  bool resolved = false;  ///< false: not even the finest panels resolve this setting, and nothing here counts
 };
 
 /// REQUIRES: settings valid and stable; as many results.

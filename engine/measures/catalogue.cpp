@@ -139,8 +139,6 @@ std::optional<Measure> measure_named(std::string_view name) {
   return std::nullopt;
 }
 
-MeasureRow::MeasureRow() { values_.fill(std::numeric_limits<double>::quiet_NaN()); }
-
 double& MeasureRow::further(std::size_t i) {
   if (further_.empty())
     further_.assign(kMeasureCount - kStandardMeasureCount, std::numeric_limits<double>::quiet_NaN());

@@ -157,7 +157,12 @@ constexpr bool is_standard(Measure measure) { return static_cast<std::size_t>(me
 /// One value per measure; NaN where the measure does not exist for the loop.
 class MeasureRow {
  public:
-  MeasureRow();
+  MeasureRow() { clear(); }
+  /// All NaN.
+  void clear() {
+    values_.fill(std::numeric_limits<double>::quiet_NaN());
+    further_.clear();
+  }
   double& operator[](Measure measure) {
     const auto i = static_cast<std::size_t>(measure);
     return i < kStandardMeasureCount ? values_[i] : further(i - kStandardMeasureCount);

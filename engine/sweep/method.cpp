@@ -8,7 +8,6 @@
 #include "engine/base/check.h"
 #include "engine/isa/dispatch.h"
 #include "engine/kernel/margins.h"
-#include "engine/kernel/measure.h"
 #include "engine/loop/noise_gain.h"
 #include "engine/loop/parameters.h"
 #include "engine/reference/measure.h"
@@ -22,24 +21,19 @@ bool has_output_step(const Loop& loop) { return loop.family.n > 0 || loop.settin
 SettingMeasured measured_by_reference(const Loop& loop, Horizon horizon, const Extras& extras) try {
   const auto steps = std::span(reference::kAllSteps).first(extras.output_step && has_output_step(loop) ? 3 : 2);
   const reference::Measured m = reference::measure(loop, horizon, {}, extras.sampling, steps);
-  return {m.status, m.measures, m.horizon, Method::reference};
+  return {.status = m.status, .measures = m.measures, .horizon = m.horizon, .resolved = false};
 } catch (const std::exception& failure) {
   throw std::runtime_error(fmt::format("{}\nreproduce: {}", failure.what(), simulate_command(loop)));
 }
 
 void measure_by_kernel(const LoopFamily& family, Horizon horizon, const Extras& extras,
                        std::span<const Setting> settings, std::span<SettingMeasured> results) {
-  std::vector<kernel::Measured> found(settings.size());
-  kernel::measure(chosen_implementation(), family, horizon, settings, found, extras.margins);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const kernel::Measured& m = found[i];
+  kernel::measure(chosen_implementation(), family, horizon, settings, results, extras.margins);
+  for (std::size_t i = 0; i < results.size(); ++i) {
     const Loop loop{family, settings[i]};
-    if (!m.resolved) {
+    if (!results[i].resolved)
       results[i] = measured_by_reference(loop, horizon, extras);
-      continue;
-    }
-    results[i] = {m.status, m.measures, m.horizon, Method::kernel};
-    if (extras.sampling && m.status != Status::unstable)
+    else if (extras.sampling && results[i].status != Status::unstable)
       results[i].measures[Measure::noise_gain] = noise_gain(loop, *extras.sampling);
   }
 }

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/status.h"
+#include "engine/kernel/measure.h"
 #include "engine/loop/horizon.h"
 #include "engine/loop/loop.h"
 #include "engine/measures/catalogue.h"
@@ -30,12 +30,11 @@ std::optional<Method> method_named(std::string_view name);
 /// For the record: "kernel, avx512" or "reference". Throws InputError where PORTRAIT_ISA asks for what is not there.
 std::string method_text(Method method);
 
-struct SettingMeasured {
-  Status status = Status::not_computed;
-  MeasureRow measures;                ///< all NaN when unstable
-  double horizon = 0;                 ///< dead times simulated; 0 when unstable
-  Method method = Method::reference;  ///< the kernel leaves what its finest panels cannot resolve to the reference
-};
+/// Its measures are all NaN when unstable. What the kernel's finest panels cannot resolve the reference has measured.
+using SettingMeasured = kernel::Measured;
+constexpr Method method_of(const SettingMeasured& measured) {
+  return measured.resolved ? Method::kernel : Method::reference;
+}
 
 /// Why this method does not measure this, and which does ("the kernel does not measure TV3_uw: ..."), or nothing.
 std::optional<std::string> why_not_measured(Method method, std::span<const Measure> measures);

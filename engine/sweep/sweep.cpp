@@ -69,7 +69,7 @@ class Worker {
     measure_settings(job_.method, job_.family, job_.horizon, extras_, settings, measured_);
     for (std::size_t i = 0; i < slice.count; ++i) {
       slice.tile->columns.set(slice.first + i, measured_[i].status, measured_[i].measures);
-      if (measured_[i].method != job_.method) ++left_over_;
+      if (method_of(measured_[i]) != job_.method) ++left_over_;
     }
   }
 

@@ -113,7 +113,7 @@ TEST(InstructionSets, GiveTheSameMargins) {
     for (std::size_t k = 0; k < sets.size(); ++k)
       kernel::find_margins(*sets[k], loop.family, {&loop.setting, 1}, {&of[k], 1});
     for (std::size_t k = 1; k < sets.size(); ++k) {
-      const MeasureRow &a = of[0].measures, &b = of[k].measures;
+      const kernel::MarginRow &a = of[0].measures, &b = of[k].measures;
       ASSERT_EQ(of[k].stable, of[0].stable) << simulate_command(loop);
       for (const Measure m : {Measure::Ms, Measure::Mt, Measure::GM})
         EXPECT_NEAR(1 / a[m], 1 / b[m], 1e-12) << to_string(m) << ": " << simulate_command(loop);

@@ -45,7 +45,7 @@ TEST_P(LaneMargins, GainMarginsAreWhereStabilityEnds) {
 /// P control of an integrator: everything in closed form.
 TEST_P(LaneMargins, ProportionalControlOfAnIntegrator) {
   for (const double kappa : {0.1, 0.5, 1.0, 1.5}) {
-    const MeasureRow found = margins_of({{Plant::ipdt, 0, Prefilter::none}, {.kappa = kappa}}).measures;
+    const kernel::MarginRow found = margins_of({{Plant::ipdt, 0, Prefilter::none}, {.kappa = kappa}}).measures;
     EXPECT_NEAR(found[Measure::GM], M_PI_2 / kappa, 1e-12);
     EXPECT_EQ(found[Measure::GM_low], 0);
     EXPECT_NEAR(found[Measure::PM], 90 - kappa * 180 / M_PI, 1e-11);
