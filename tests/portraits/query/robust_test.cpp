@@ -94,7 +94,8 @@ TEST(Robust, none_of_a_thousand_random_plants_breaks_a_constraint) {
   double violation = 0;
   EXPECT_EQ(broken_of(kPlants, source.grid(), question, answer.top[0].nominal.setting, &violation), 0);
   EXPECT_LE(violation, answer.top[0].over_box.constraints[0].bound);
-  EXPECT_GT(violation, -0.05) << "the example should come near a bound";
+  // The bound binds in a corner of the box: the fewer the plants, the further from it is the nearest.
+  EXPECT_GT(violation, kPlants < 1000 ? -0.1 : -0.05) << "the example should come near a bound";
   // The nominal optimum, which keeps every bound on its own plant, breaks one on most of the others.
   ASSERT_TRUE(answer.nominal);
   const OverBox& nominal = answer.nominal->over_box;
