@@ -59,7 +59,8 @@ struct SmoothLimits {
 
   SmoothLimits() {
     for (std::size_t i = 0; i < kOmegas.size(); ++i)
-      for (std::size_t j = 0; j < kIntervalCounts.size(); ++j) of[i][j] = limit(smooth_tail(kOmegas[i]), kIntervalCounts[j]);
+      for (std::size_t j = 0; j < kIntervalCounts.size(); ++j)
+        of[i][j] = limit(smooth_tail(kOmegas[i]), kIntervalCounts[j]);
   }
 
   /// The first two dead times see no loop yet; a round takes two.

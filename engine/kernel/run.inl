@@ -67,7 +67,8 @@ class Run {
   /// Whether it is asked after this interval which lanes are at rest.
   static bool looks(int k) { return k % 8 == 7; }
 
-  /// On the first dead time of a run that d drives the controller is at rest, and of all meters only two have something to do.
+  /// On the first dead time of a run that d drives the controller is at rest, and of all meters only two have something to
+  /// do.
   bool sees_nothing_at_first() const { return disturbed && span_.late_from > 1; }
 
   /// On the second dead time the controller sees the plant's answer to a step: y and y' are positive, and so are, behind the
@@ -136,7 +137,8 @@ class Run {
     for (int p = 0; p < panel_count_; ++p) {
       chain_.run_plant_alone(panels_[p], outputs_[p]);
       watch_output<kDegree>(1, p, false);
-      if (both_) w_.e.watch({chain_.sum, Lanes(0.0), chain_.of_sum}, panels_[p].start + panels_[p].half, panels_[p].half, active_);
+      const double half = panels_[p].half;
+      if (both_) w_.e.watch({chain_.sum, Lanes(0.0), chain_.of_sum}, panels_[p].start + half, half, active_);
     }
     dead_times = Lanes(1.0);
   }
