@@ -4,27 +4,51 @@
 
 namespace portrait {
 
-void TileQueue::begin_tile() {
-  std::vector<Setting> settings = settings_of_(begun_);
+bool TileQueue::may_begin() const {
+  return !ending_ && begun_ < tile_count_ && begun_ - stored_ < kTilesInMemory;
+}
+
+/// Settings and columns take as long as many slices: others go on meanwhile. Settings are made by one thread at a time.
+void TileQueue::begin_tile(std::unique_lock<std::mutex>& lock) {
+  lock.unlock();
+  std::unique_lock making(making_);
+  lock.lock();
+  if (closed_ || !open_.empty() || !may_begin()) return;  // another thread was faster
+  const std::uint64_t number = begun_++;
+  ++coming_;  // for good where an exception leaves this function: the worker that catches it closes the queue
+  lock.unlock();
+  std::vector<Setting> settings = settings_of_(number);
+  making.unlock();
   const std::size_t count = settings.size();
-  current_ = std::make_shared<Tile>(Tile{begun_, std::move(settings), MeasureColumns(measures_, count), count, {}});
-  ++begun_;
-  cut_ = 0;
+  auto tile =
+      std::make_shared<Tile>(Tile{number, std::move(settings), MeasureColumns(measures_, count), count, {}});
+  lock.lock();
+  --coming_;
+  open_.emplace(number, OpenTile{std::move(tile), 0});
+  changed_.notify_all();
+}
+
+/// The next slice of the oldest tile; of a tile without settings one that is empty.
+Slice TileQueue::cut() {
+  const auto oldest = open_.begin();
+  OpenTile& open = oldest->second;
+  const std::size_t settings = open.tile->settings.size();
+  const Slice slice{open.tile, open.cut, std::min(kSliceSettings, settings - open.cut)};
+  open.cut += slice.count;
+  if (open.cut == settings) open_.erase(oldest);
+  return slice;
 }
 
 std::optional<Slice> TileQueue::next() {
   std::unique_lock lock(mutex_);
-  // Others may begin the tile this one waits for, and cut it up: then the question is the same again.
-  const auto is_cut_up = [&] { return !current_ || cut_ == current_->settings.size(); };
-  const auto is_last = [&] { return ending_ || begun_ == tile_count_; };
-  stored_one_.wait(lock,
-                   [&] { return closed_ || !is_cut_up() || is_last() || begun_ - stored_ < kTilesInMemory; });
-  if (closed_ || (is_cut_up() && is_last())) return std::nullopt;
-  if (is_cut_up()) begin_tile();
-  const std::size_t count = std::min(kSliceSettings, current_->settings.size() - cut_);
-  const Slice slice{current_, cut_, count};
-  cut_ += count;
-  return slice;
+  const auto none_comes = [&] { return coming_ == 0 && (ending_ || begun_ == tile_count_); };
+  for (;;) {
+    changed_.wait(lock, [&] { return closed_ || !open_.empty() || may_begin() || none_comes(); });
+    if (closed_) return std::nullopt;
+    if (!open_.empty()) return cut();
+    if (!may_begin()) return std::nullopt;
+    begin_tile(lock);
+  }
 }
 
 void TileQueue::finish(const Slice& slice) {
@@ -49,7 +73,7 @@ void TileQueue::store_in_order(std::unique_lock<std::mutex>& lock) {
     ready->store = nullptr;
     lock.lock();
     ++stored_;
-    stored_one_.notify_all();
+    changed_.notify_all();
   }
   storing_ = false;
 }
@@ -57,13 +81,13 @@ void TileQueue::store_in_order(std::unique_lock<std::mutex>& lock) {
 void TileQueue::begin_no_more() {
   const std::scoped_lock lock(mutex_);
   ending_ = true;
-  stored_one_.notify_all();
+  changed_.notify_all();
 }
 
 void TileQueue::close() {
   const std::scoped_lock lock(mutex_);
   closed_ = true;
-  stored_one_.notify_all();
+  changed_.notify_all();
 }
 
 std::uint64_t TileQueue::settings_measured() const {

@@ -71,7 +71,15 @@ class TileQueue {
   std::uint64_t tiles_stored() const;
 
  private:
-  void begin_tile();
+  /// A tile that is being cut into slices.
+  struct OpenTile {
+    std::shared_ptr<Tile> tile;
+    std::size_t cut = 0;  ///< settings given out
+  };
+
+  bool may_begin() const;
+  void begin_tile(std::unique_lock<std::mutex>& lock);
+  Slice cut();
   void store_in_order(std::unique_lock<std::mutex>& lock);
 
   const std::vector<Measure> measures_;
@@ -79,16 +87,17 @@ class TileQueue {
   const SettingsOf settings_of_;
   const Prepare prepare_;
 
+  std::mutex making_;  ///< settings are being made; taken before the other, never after
   mutable std::mutex mutex_;
-  std::condition_variable stored_one_;  ///< or closed
-  std::shared_ptr<Tile> current_;       ///< being cut into slices
-  std::size_t cut_ = 0;                 ///< settings of `current_` given out
-  std::uint64_t begun_ = 0;             ///< tiles begun
-  std::uint64_t stored_ = 0;            ///< tiles stored: all below this number
-  std::uint64_t measured_ = 0;          ///< settings
-  bool storing_ = false;                ///< one thread is in a store step
+  std::condition_variable changed_;         ///< a tile was opened or stored, or the end is near
+  std::map<std::uint64_t, OpenTile> open_;  ///< more than one where threads begin tiles at the same time
+  std::uint64_t begun_ = 0;                 ///< tiles begun
+  std::uint64_t coming_ = 0;                ///< tiles begun, but not open yet
+  std::uint64_t stored_ = 0;                ///< tiles stored: all below this number
+  std::uint64_t measured_ = 0;              ///< settings
+  bool storing_ = false;                    ///< one thread is in a store step
   bool closed_ = false;
-  bool ending_ = false;                 ///< no tile is begun any more
+  bool ending_ = false;  ///< no tile is begun any more
   std::map<std::uint64_t, std::shared_ptr<Tile>> waiting_;  ///< prepared, but an earlier tile is not stored
 };
 
