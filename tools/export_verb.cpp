@@ -244,10 +244,7 @@ void add_export(CLI::App& app, Invocation& invocation) {
   verb->add_option("file", a->file, "portrait file")->required();
   verb->add_option("-o,--output", a->output, "FILE.csv or FILE.npy (default: CSV to stdout)");
   verb->add_option("--slice", a->slice, "AXIS=VALUE[,...]: only these values of axes");
-  verb->add_option("--where", a->where, "a constraint, EXPR <= X (or <, >=, >, ==); any number of times")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
+  add_many(*verb, "--where", a->where, "a constraint, EXPR <= X (or <, >=, >, ==); any number of times");
   verb->add_option("--minimize", a->minimize, "an expression: the best settings, best first");
   verb->add_option("--top", a->top, "with --minimize, how many of them")->capture_default_str();
   verb->add_option("--measures", a->measures, "NAME[,...]: only these, in this order (default: all)");

@@ -145,11 +145,7 @@ Json json_answer(const Grid& grid, const Question& question, const Answer& answe
            answer.top.empty() ? Json(nullptr) : json_placed(grid, question.conditions.units, answer.top.front())},
           {"admissible", answer.admissible},
           {"total", answer.total},
-          {"left_out",
-           {{"unstable", answer.left_out.unstable},
-            {"not_settled", answer.left_out.not_settled},
-            {"not_computed", answer.left_out.not_computed},
-            {"objective_missing", answer.left_out.objective_missing}}},
+          {"left_out", json_left_out(answer.left_out)},
           {"excluded", answer.excluded},
           {"active", active}};
 }

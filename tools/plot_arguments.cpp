@@ -9,6 +9,7 @@
 #include "engine/base/version.h"
 #include "engine/base/words.h"
 #include "tools/arguments.h"
+#include "tools/verbs.h"
 
 namespace portrait::tools {
 namespace {
@@ -55,10 +56,6 @@ void set_all(const std::string& option, const std::vector<std::string>& words, S
 }
 
 }  // namespace
-
-CLI::Option* add_many(CLI::App& kind, const char* name, std::vector<std::string>& words, const char* text) {
-  return kind.add_option(name, words, text)->take_all()->expected(1)->allow_extra_args(false);
-}
 
 void add_output(CLI::App& kind, PlotArguments& a) {
   kind.add_option("-o,--output", a.output, "the picture: a name that ends in .svg, .pdf or .png")->required();

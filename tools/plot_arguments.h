@@ -27,8 +27,6 @@ void add_output(CLI::App& kind, PlotArguments& a);
 void add_question(CLI::App& kind, PlotArguments& a);
 void add_loops(CLI::App& kind, PlotArguments& a, const char* settings_text);
 void add_log(CLI::App& kind, PlotArguments& a, const char* text);
-/// An option that may be given many times, one word each.
-CLI::Option* add_many(CLI::App& kind, const char* name, std::vector<std::string>& words, const char* text);
 
 /// --plant "dipdt", "dipdt,K=2,Td=0.5" or "K=2,Td=0.5": a family, a real plant, or both. With a portrait the family is
 /// the portrait's.

@@ -20,6 +20,13 @@ std::vector<Quantity> named_in(const Constraint& constraint) {
 
 }  // namespace
 
+Json json_left_out(const LeftOut& left_out) {
+  return {{"unstable", left_out.unstable},
+          {"not_settled", left_out.not_settled},
+          {"not_computed", left_out.not_computed},
+          {"objective_missing", left_out.objective_missing}};
+}
+
 Json json_found(const Grid& grid, const QueryUnits& units, const Found& found) {
   Json json{{"settings", json_settings(loop_of(grid, found))},
             {"objective", json_number(found.objective)},

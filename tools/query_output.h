@@ -12,6 +12,9 @@ namespace portrait::tools {
 /// {"settings", "objective", "measures", "status"[, "controller" when there is a plant]}
 Json json_found(const Grid& grid, const QueryUnits& units, const Found& found);
 
+/// {"unstable", "not_settled", "not_computed", "objective_missing"}: how many settings each.
+Json json_left_out(const LeftOut& left_out);
+
 /// {"family", "K", "Td"[, "T1"]}
 Json json_plant(const RealPlant& plant);
 

@@ -152,11 +152,7 @@ void print_as_json(const Asked& asked, const std::optional<std::vector<RuleOnPor
             {"top", top},
             {"admissible", answer.admissible},
             {"total", answer.total},
-            {"left_out",
-             {{"unstable", answer.left_out.unstable},
-              {"not_settled", answer.left_out.not_settled},
-              {"not_computed", answer.left_out.not_computed},
-              {"objective_missing", answer.left_out.objective_missing}}}};
+            {"left_out", json_left_out(answer.left_out)}};
   if (asked.refined) json["refined"] = json_refined(asked);
   if (!answer.top.empty()) json["at_edge"] = json_names(edges_at(asked.grid, answer.top[0].setting));
   add_units(json, asked.grid, asked.question.conditions);
@@ -347,10 +343,7 @@ void add_query(CLI::App& app, Invocation& invocation) {
   verb->add_flag("--refine", a->refine, "the optimum between the grid's points, with the engine");
   verb->add_option("--coarse", a->coarse, "gain by --refine, in %, above which the grid is called too coarse")
       ->capture_default_str();
-  verb->add_option("--where", a->where, "a constraint, EXPR <= X (or <, >=, >, ==); any number of times")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
+  add_many(*verb, "--where", a->where, "a constraint, EXPR <= X (or <, >=, >, ==); any number of times");
   verb->add_option("--top", a->top, "how many of the best settings to list")->capture_default_str();
   verb->add_option("--plant", a->plant, "K=..,Td=..[,T1=..]: the answer in the units of this plant");
   verb->add_option("--uncertain", a->uncertain, "K=lo..hi,Td=lo..hi[,T1=lo..hi]: serve every plant of this box");

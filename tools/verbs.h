@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -19,6 +20,11 @@ inline CLI::App* add_verb(CLI::App& app, const char* name, const char* line, con
   CLI::App* verb = app.add_subcommand(name, help);
   verb->footer(line);
   return verb;
+}
+
+/// An option that may be given many times, one word each.
+inline CLI::Option* add_many(CLI::App& verb, const char* name, std::vector<std::string>& words, const char* text) {
+  return verb.add_option(name, words, text)->take_all()->expected(1)->allow_extra_args(false);
 }
 
 void add_sweep(CLI::App& app, Invocation& invocation);

@@ -7,8 +7,8 @@
 /// time (tests/engine/kernel/responses_test.cpp, ResponsesAcrossIsas). So `level` is as high as an input's derivatives are known
 /// in their own right: those of an integrator, as long as the filter is fast. A slow one has tau^2 and tau^3 in what is fed
 /// back in the end, which grew by up to half from one dead time to the next where tau_f was above 1; there 1/tau loses
-/// nothing, and `level` is 1 (tests/engine/kernel/responses_test.cpp, ASlowFilterOverALongTime). The slope of a lag (fotd) is a numerical derivative: fed back through `level`
-/// = 1 it makes the highest coefficients grow from one dead time to the next.
+/// nothing, and `level` is 1 (tests/engine/kernel/responses_test.cpp, ASlowFilterOverALongTime). The slope of a lag (fotd) is a
+/// numerical derivative: fed back through `level` = 1 it makes the highest coefficients grow from one dead time to the next.
 #pragma once
 
 #include "engine/kernel/legendre.inl"
