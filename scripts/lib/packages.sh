@@ -29,6 +29,11 @@ install_missing() {
   local missing=() package
   for package in "$@"; do is_installed "$package" || missing+=("$package"); done
   [ ${#missing[@]} -eq 0 ] && return
+  command -v apt-get >/dev/null || {
+    echo "Portrait needs these Debian packages, and there is no apt-get here. Install what they are called on this system:" >&2
+    echo "  ${missing[*]}" >&2
+    exit 1
+  }
   say "Installing ${#missing[@]} Debian packages: ${missing[*]}"
   local as_root=()
   if [ "$(id -u)" -ne 0 ]; then
