@@ -1,10 +1,14 @@
 # What every target of the house has in common.
 
 add_library(portrait_options INTERFACE)
-target_include_directories(portrait_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(portrait_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+target_compile_features(portrait_options INTERFACE cxx_std_20)
 # No contraction: a*b+c is rounded the same way on every machine, so portraits have the same bits everywhere.
-target_compile_options(portrait_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-  $<$<BOOL:${PORTRAIT_WERROR}>:-Werror>)
+set(options -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+if(PORTRAIT_WERROR)
+  list(APPEND options -Werror)
+endif()
+target_compile_options(portrait_options INTERFACE "$<BUILD_INTERFACE:${options}>")
 if(PORTRAIT_SANITIZE)
   target_compile_options(portrait_options INTERFACE -fsanitize=${PORTRAIT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(portrait_options INTERFACE -fsanitize=${PORTRAIT_SANITIZE})

@@ -31,7 +31,7 @@ constexpr const char* kHelp =
 class VerbFormatter : public CLI::Formatter {
  public:
   std::string make_subcommand(const CLI::App* verb) const override {
-    return fmt::format("  {:<12}{}\n", verb->get_name(), verb->get_footer());
+    return fmt::format("  {:<16}{}\n", verb->get_name(), verb->get_footer());
   }
   std::string make_footer(const CLI::App*) const override { return "\n"; }
 };

@@ -17,6 +17,7 @@ test_packages=(
   python3 python3-xarray python3-netcdf4 python3-h5netcdf python3-h5py netcdf-bin  # portraits read by others
   munge slurmctld slurmd slurm-client openmpi-bin  # a cluster of one machine
   zsh                                      # its completion
+  dpkg-dev file                            # the Debian package that cpack makes
   strace                                   # killing a sweep at a chosen system call
 )
 

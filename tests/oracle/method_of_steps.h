@@ -1,4 +1,4 @@
-/// Exact responses of a loop, dead time after dead time, by arithmetic on power series in long double.
+/// Exact responses of a loop of any family, dead time after dead time, by arithmetic on power series in long double.
 ///
 /// On one dead time the delayed output is known from the one before, so every signal of the loop solves a linear
 /// equation with a known right side, and its power series follows term by term: x' = f gives x_(j+1) = f_j/(j + 1).
@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/base/check.h"
 #include "engine/loop/loop.h"
 #include "tests/oracle/power_series.h"
 
@@ -29,12 +28,15 @@ class MethodOfSteps {
       : plant_(loop.family.plant),
         prefilter_(loop.family.prefilter),
         n_(loop.family.n),
+        m_(loop.family.m),
         pieces_(pieces),
         w_(w),
         d_(d) {
     const Setting& s = loop.setting;
-    kappa_ = s.kappa, delta_ = s.delta, tau_i_ = s.tau_i, tau_1_ = s.tau_1, tau_f_ = s.tau_f, b_ = s.b, c_ = s.c;
+    kappa_ = s.kappa, delta_ = s.delta, tau_i_ = s.tau_i, tau_1_ = s.tau_1, tau_f_ = s.tau_f, b_ = s.b, c_ = s.c, tau_j_ = s.tau_j;
     filter_.resize(static_cast<std::size_t>(n_));
+    if (plant_ == Plant::jotd) lags_.resize(static_cast<std::size_t>(loop.family.j) - 1);
+    for (const double gain : s.gains) gains_.push_back(gain);
   }
 
   void run_to(int dead_times) {
@@ -73,6 +75,7 @@ class MethodOfSteps {
     for (State* state : {&lag_, &lag_slope_, &integral_, &output_, &output_slope_})
       state->restart(value(state->c, length));
     for (State& state : filter_) state.restart(value(state.c, length));
+    for (State& state : lags_) state.restart(value(state.c, length));
   }
 
   bool integrates() const { return std::isfinite(tau_i_); }
@@ -104,6 +107,7 @@ class MethodOfSteps {
 
   /// The j-th term of u.
   Real controller(std::size_t j, Real e, Real y_slope) {
+    if (m_ >= 0) return gains_controller(j, e);
     Real e_slope = -y_slope;
     for (State& state : filter_) {
       e_slope = (e - state[j]) / tau_f_;
@@ -112,6 +116,21 @@ class MethodOfSteps {
     }
     const Real u = kappa_ * e + delta_ * e_slope + (integrates() ? kappa_ / tau_i_ * integral_[j] : 0);
     integral_.slope(j, e);
+    return u;
+  }
+
+  /// K_-1/s + K_0 + ... + K_m s^m behind n lags. With x_0 = e and x_i behind i lags, tau_f x_i' = x_(i-1) - x_i, and so for
+  /// every derivative: differences, of which x_n has n without a derivative of e.
+  Real gains_controller(std::size_t j, Real e) {
+    std::vector<Real> x{e};
+    for (const State& state : filter_) x.push_back(state[j]);
+    for (std::size_t i = 0; i < filter_.size(); ++i) filter_[i].slope(j, (x[i] - x[i + 1]) / tau_f_);
+    Real u = gains_[0] * integral_[j] + gains_[1] * x.back();
+    integral_.slope(j, x.back());
+    for (int k = 1; k <= m_; ++k) {
+      for (std::size_t i = x.size() - 1; i >= static_cast<std::size_t>(k); --i) x[i] = (x[i - 1] - x[i]) / tau_f_;
+      u += gains_[static_cast<std::size_t>(k) + 1] * x.back();
+    }
     return u;
   }
 
@@ -128,17 +147,22 @@ class MethodOfSteps {
         output_.slope(j, (input - output_[j]) / tau_1_);
         break;
       case Plant::jotd:
-        PORTRAIT_CHECK(false);  // this oracle has one lag at most
+        for (State& lag : lags_) {
+          lag.slope(j, (input - lag[j]) / tau_j_);
+          input = lag[j];
+        }
+        output_.slope(j, (input - output_[j]) / tau_j_);
     }
   }
 
   Plant plant_;
   Prefilter prefilter_;
-  int n_, pieces_;
+  int n_, m_, pieces_;
   Real w_, d_;
-  Real kappa_, delta_, tau_i_, tau_1_, tau_f_, b_, c_;
+  Real kappa_, delta_, tau_i_, tau_1_, tau_f_, b_, c_, tau_j_;
+  std::vector<Real> gains_;
   State lag_, lag_slope_, integral_, output_, output_slope_;
-  std::vector<State> filter_;
+  std::vector<State> filter_, lags_;
   Signal y_, u_;
   std::vector<PowerSeries> z_;
 };

@@ -8,7 +8,7 @@ class Usage(ProgramTest):
     def test_no_verb_shows_the_help_on_stderr(self):
         result = self.run_program()
         self.assertEqual((result.code, result.out), (2, ""))
-        for verb in ("sweep", "info", "verify", "query", "simulate"):
+        for verb in ("sweep", "info", "verify", "query", "simulate", "characteristic"):
             self.assertIn(f"\n  {verb} ", result.err)
 
     def test_every_verb_has_help_that_leads_with_an_example(self):
