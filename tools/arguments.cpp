@@ -80,6 +80,13 @@ Plant plant_family_argument(std::string_view option, std::string_view text) {
   return *plant;
 }
 
+Measure measure_argument(std::string_view option, std::string_view name) {
+  if (const auto measure = measure_named(name)) return *measure;
+  std::vector<std::string_view> known;
+  for (const Measure m : all_measures()) known.push_back(to_string(m));
+  throw InputError(fmt::format("{}: unknown measure \"{}\"{}", option, name, suggestion(name, known)));
+}
+
 Prefilter prefilter_argument(std::string_view option, std::string_view text) {
   const auto prefilter = prefilter_named(text);
   if (!prefilter)

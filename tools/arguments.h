@@ -9,6 +9,7 @@
 
 #include "engine/loop/horizon.h"
 #include "engine/loop/real_plant.h"
+#include "engine/measures/catalogue.h"
 #include "engine/sweep/method.h"
 #include "grids/grid.h"
 #include "portraits/query/plant_box.h"
@@ -27,6 +28,7 @@ std::optional<double> sampling_argument(std::string_view option, std::string_vie
 
 Plant plant_family_argument(std::string_view option, std::string_view text);
 Prefilter prefilter_argument(std::string_view option, std::string_view text);
+Measure measure_argument(std::string_view option, std::string_view name);
 Method method_argument(std::string_view option, std::string_view text);
 
 /// "K=2.5,Td=0.4[,T1=3]" for a plant of this family; K is 1 when it is not given.

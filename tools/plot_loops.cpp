@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
-#include "engine/base/words.h"
 #include "engine/loop/stability.h"
 #include "engine/sweep/method.h"
 #include "tools/arguments.h"
@@ -117,13 +116,6 @@ int nyquist(const LoopsArguments& a, const Invocation& invocation) {
   return done(a, invocation, title, pictures::nyquist(title, loops.named, a.Ms));
 }
 
-Measure measure_argument(const std::string& name) {
-  if (const auto measure = measure_named(name)) return *measure;
-  std::vector<std::string_view> known;
-  for (const Measure m : all_measures()) known.push_back(to_string(m));
-  throw InputError(fmt::format("--measures: unknown measure \"{}\"{}", name, suggestion(name, known)));
-}
-
 std::vector<MeasureRow> measured(const Loops& loops, const Horizon& horizon) {
   std::vector<MeasureRow> rows;
   for (const NamedLoop& named : loops.named) {
@@ -141,7 +133,7 @@ int bars(const LoopsArguments& a, const Invocation& invocation) {
   for (const NamedLoop& named : loops.named) labels.push_back(named.label);
   std::vector<pictures::Bars> panels;
   for (const std::string& name : a.measures) {
-    const Measure measure = measure_argument(name);
+    const Measure measure = measure_argument("--measures", name);
     pictures::Bars& panel = panels.emplace_back();
     panel.label = pictures::short_label(measure, loops.plant.has_value());
     for (const MeasureRow& row : rows)

@@ -24,6 +24,7 @@ void add_plot(CLI::App& app, Invocation& invocation) {
   add_plot_nyquist(*verb, invocation);
   add_plot_bars(*verb, invocation);
   add_plot_front(*verb, invocation);
+  add_plot_characteristic(*verb, invocation);
   add_plot_stability(*verb, invocation);
 }
 

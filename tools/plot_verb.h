@@ -12,6 +12,8 @@ void add_plot_front(CLI::App& plot, Invocation& invocation);
 void add_plot_responses(CLI::App& plot, Invocation& invocation);
 void add_plot_nyquist(CLI::App& plot, Invocation& invocation);
 void add_plot_bars(CLI::App& plot, Invocation& invocation);
+// plot_characteristic.cpp: of families of loops
+void add_plot_characteristic(CLI::App& plot, Invocation& invocation);
 // plot_stability.cpp
 void add_plot_stability(CLI::App& plot, Invocation& invocation);
 

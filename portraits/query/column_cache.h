@@ -2,7 +2,7 @@
 ///
 /// memory    at most `limit` bytes of columns; a column that is larger than that is read from the file each time
 /// threads   any number at a time
-/// accuracy  the same bits as the source: tests/portraits/query/column_cache_test.cpp
+/// accuracy  the same bits as the source: tests/portraits/query/planes_test.cpp
 #pragma once
 
 #include <cstddef>

@@ -173,6 +173,47 @@ class Loops(Plot):
         self.near(heights[1] / heights[0], values[1]["IAE_d"] / values[0]["IAE_d"], 0.01)
         self.near(heights[3] / heights[2], values[1]["Ms"] / values[0]["Ms"], 0.01)
 
+    def test_characteristics_are_those_that_are_printed(self):
+        lines = {"one": ("--pid", "standard:Kc={},Ti=1.5", "--vary", "0.25:0.5:4"),
+                 "two": ("--pid", "standard:Kc={},Ti=2.5", "--vary", "0.5:1:3")}
+        curves = [f"{label}: {' '.join(options)}" for label, options in lines.items()]
+        figure = self.figure("characteristic", "--plant", "tf:1/1,4,6,4,1", "--curve", curves[0], "--curve", curves[1])
+        printed = {label: self.run_program("characteristic", "--plant", "tf:1/1,4,6,4,1", *options, "--json").json["points"]
+                   for label, options in lines.items()}
+        panels = [max(figure.lines(group), key=len) for group in figure.plots() if figure.lines(group)]
+        self.assertEqual(len(panels), 4)  # effort of both, wobbling of both
+        for panel, deviation in ((panels[:2], "TV1_ud"), (panels[2:], "TV1_yd")):
+            drawn = [p for curve in panel for p in curve]
+            wanted = [(p[deviation], p["IAE_d"]) for label in lines for p in printed[label]]
+            self.assertEqual(len(drawn), len(wanted))
+            for c, sign in ((0, 1), (1, -1)):
+                pixels, values = [p[c] for p in drawn], [w[c] for w in wanted]
+                scale = (max(pixels) - min(pixels)) / (max(values) - min(values))
+                for pixel, value in zip(pixels, values):
+                    shift = pixels[values.index(min(values))]
+                    self.near(pixel, shift + sign * scale * (value - min(values)), 0.2)
+        texts = [text for text, _, _ in figure.texts()]
+        for end in ("0.25", "0.5", "1"):
+            self.assertGreaterEqual(texts.count(end), 2, end)
+        self.assertIn("TV1_yd [y]", texts)
+        self.assertTrue(figure.plot("one") is not None and figure.plot("two") is not None)
+
+    def test_characteristics_of_curves_that_are_none(self):
+        line = ("characteristic", "--plant", "ipdt", "--vary", "0.2,0.3", "-o", "a.svg", "--curve")
+        for curve, message in (("x: --kapa {}", '--curve "x: --kapa {}": unknown option "--kapa" (did you mean "--kappa"?)'),
+                               ("x: --kappa 1", "--vary: there is no {} on the line for it to stand for"),
+                               ("x: --kappa {} --speed IAE_w",
+                                '--curve "x: --kappa {} --speed IAE_w": --speed, --effort and --wobbling belong on the line')):
+            self.assert_fails(self.run_program("plot", *line, curve), 2, message)
+        self.assert_fails(self.run_program("plot", "characteristic", "--kappa", "{}", "--vary", "1,2", "-o", "a.svg"), 2,
+                          "--plant is missing, on the line or in --curve")
+        self.assertEqual(list(self.folder.glob("a.*")), [])
+
+    def test_an_unstable_loop_leaves_a_gap(self):
+        figure = self.figure("characteristic", "--plant", "ipdt", "--kappa", "{}", "--tau-i", 8, "--vary", "0.2,0.3,9,0.4,0.5")
+        pieces = [line for line in figure.lines(figure.plots()[1]) if len(line) == 2]
+        self.assertGreaterEqual(len(pieces), 2)
+
     def test_stability_of_ipdt_with_p_control_ends_at_pi_half(self):
         figure = self.figure("stability", "--plant", "ipdt", "--x", "kappa=0.1..3", "--y", "tau_i=1000..2000")
         x, _ = figure.axes()
@@ -217,7 +258,7 @@ class Loops(Plot):
         self.assert_fails(self.run_program("plot", "nyquist", "--plant", "dipdt", "--setting", "kapa=1", "-o", "a.svg"), 2,
                           '--setting: unknown parameter "kapa" (did you mean "kappa"?)')
         self.assert_fails(self.run_program("plot"), 2,
-                          "portrait plot needs to know what: map, responses, nyquist, bars, front, stability")
+                          "portrait plot needs to know what: map, responses, nyquist, bars, front, characteristic, stability")
 
 
 if __name__ == "__main__":
