@@ -58,7 +58,8 @@ std::string nearest_option(const CLI::App& line, const std::string& options) {
   return "";
 }
 
-CharacteristicArguments with_options(CharacteristicArguments a, const std::string& text, const std::string& options) {
+CharacteristicArguments with_options(CharacteristicArguments a, const std::string& text,
+                                     const std::string& options) {
   CLI::App line;
   line.set_help_flag();
   add_characteristic_options(line, a);

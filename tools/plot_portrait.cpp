@@ -9,12 +9,16 @@
 #include "engine/base/words.h"
 #include "portraits/query/cross_section.h"
 #include "portraits/query/grid_values.h"
+#include "portraits/query/plant_box.h"
 #include "portraits/query/query_units.h"
+#include "portraits/query/robust.h"
+#include "tools/arguments.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
 #include "tools/pictures/stability_limit.h"
 #include "tools/pictures/text.h"
 #include "tools/plot_arguments.h"
+#include "tools/plot_rules.h"
 #include "tools/plot_verb.h"
 #include "tools/portrait_pictures.h"
 #include "tools/shown_portrait.h"
@@ -31,13 +35,41 @@ constexpr const char* kMapHelp =
 
 A plane of a portrait as filled contours of an expression, with the admissible region of
 --where and the optimum of --minimize. Axes that are not drawn are held at --at, else where
-the optimum lies, else in their middle.)";
+the optimum lies, else in their middle. --rules adds tuning rules as numbered points, seen along
+those axes, with the factor by which each is worse than the optimum.)";
 
-std::optional<Found> optimum(const PlotArguments& a, const ShownPortrait& shown) {
+/// In the units of the shown plant, which --uncertain may have given.
+Question question_on(const MapArguments& a, const ShownPortrait& shown) {
+  Question question = question_argument(a, shown.grid());
+  question.conditions.units = shown.units;
+  return question;
+}
+
+/// The optimum that query gives; for every plant of the box when there is one.
+std::optional<Found> optimum(const MapArguments& a, const ShownPortrait& shown,
+                             const std::optional<PlantBox>& box) {
   if (a.minimize.empty()) return std::nullopt;
-  const Answer answer = ask(shown.portrait, question_argument(a, shown.grid()));
+  const Question question = question_on(a, shown);
+  if (box) {
+    const RobustAnswer answer =
+        ask_robust(shown.portrait, {.minimize = question.minimize, .conditions = question.conditions, .box = *box});
+    if (answer.top.empty()) return std::nullopt;
+    return answer.top.front().nominal;
+  }
+  const Answer answer = ask(shown.portrait, question);
   if (answer.top.empty()) return std::nullopt;
   return answer.top.front();
+}
+
+/// --uncertain; its nominal plant becomes the shown one.
+std::optional<PlantBox> box_argument(const MapArguments& a, ShownPortrait& shown) {
+  if (a.uncertain.empty()) return std::nullopt;
+  if (a.minimize.empty())
+    throw InputError("--uncertain needs --minimize: the optimum is the controller whose box is drawn");
+  const PlantBox box = uncertain_argument("--uncertain", a.uncertain, shown.units.plant, shown.grid().family.plant);
+  shown.units.plant = box.nominal;
+  require_fits(shown.units, shown.grid());
+  return box;
 }
 
 Parameter axis_argument(const char* option, const std::string& text, const Grid& grid, std::size_t usual) {
@@ -153,17 +185,52 @@ void add_stability(pictures::Map& map, const Grid& grid, Parameter x, Parameter 
   map.stability = pictures::stability_limit(plane, stable);
 }
 
+/// The edges of the box of plants as the controller sees them.
+std::vector<pictures::Outline> patch_outline(const PlantBox& box, const Loop& loop, Parameter x, Parameter y) {
+  constexpr int kSteps = 24;
+  std::vector<pictures::Outline> edges;
+  const std::vector<std::size_t> wide = box.uncertain();
+  for (const BoxPoint& corner : box.corners())
+    for (const std::size_t along : wide) {
+      if (corner[along] > 0) continue;  // each edge once, from its low end
+      pictures::Outline& edge = edges.emplace_back();
+      for (int i = 0; i <= kSteps; ++i) {
+        BoxPoint at = corner;
+        at[along] = static_cast<double>(i) / kSteps;
+        const Point p = place(seen_by(box.at(at), loop, box.nominal), x, y);
+        if (std::isfinite(p.x) && std::isfinite(p.y)) edge.push_back(p);
+      }
+    }
+  return edges;
+}
+
+bool is_within(const std::vector<double>& values, double value) {
+  return value >= values.front() && value <= values.back();
+}
+
+/// Rules where they lie in the plane, seen along the axes that are held.
+void add_rules(pictures::Map& map, const MapArguments& a, const ShownPortrait& shown,
+               const std::optional<Found>& best, Parameter x, Parameter y) {
+  const Question question = question_on(a, shown);
+  const auto rules = rules_on(shown.grid(), question, best ? std::optional(best->objective) : std::nullopt);
+  map.rules = rule_marks(
+      shown.grid(), rules, question, [&](const RuleOnPortrait& r) { return place(r.setting, x, y); },
+      [&](Point p) { return is_within(map.field.x, p.x) && is_within(map.field.y, p.y); });
+}
+
 }  // namespace
 
 PortraitPicture map_picture(const MapArguments& a) {
-  const ShownPortrait shown(a.file, a.plant);
+  ShownPortrait shown(a.file, a.plant);
   const Grid& grid = shown.grid();
+  const std::optional<PlantBox> box = box_argument(a, shown);
   const Parameter x = axis_argument("--x", a.x, grid, other_than(grid, a.y));
   const Parameter y = axis_argument("--y", a.y, grid, other_than(grid, std::string(to_string(x))));
   if (x == y) throw InputError("--x and --y name the same axis");
   if (a.colour.empty() && a.minimize.empty()) throw InputError("nothing to draw: give --colour or --minimize");
+  if (a.rules && a.minimize.empty()) throw InputError("--rules needs --minimize, which the regret is about");
   if (!a.where.empty() && a.minimize.empty()) throw InputError("--where needs --minimize");
-  const auto best = optimum(a, shown);
+  const auto best = optimum(a, shown, box);
   const auto held = held_indices(a, shown, best);
   const CrossSection section(shown.portrait, shown.units, x, y, held);
   const Expression colour = parse_expression({"--colour", a.colour.empty() ? a.minimize : a.colour});
@@ -182,11 +249,13 @@ PortraitPicture map_picture(const MapArguments& a) {
   picture.x_label = pictures::label(x, grid.family.plant);
   picture.y_label = pictures::label(y, grid.family.plant);
   picture.z_label = pictures::label(colour, shown.has_plant());
-  if (!a.minimize.empty()) add_admissible(picture, section, question_argument(a, grid));
+  if (!a.minimize.empty()) add_admissible(picture, section, question_on(a, shown));
   if (a.stability) add_stability(picture, grid, x, y, held);
   if (best && in_plane(grid, best->number, x, y, held))
     picture.optimum =
         pictures::Mark{place(best->setting, x, y), fmt::format("optimum, {}", short_number(best->objective))};
+  if (box && best) picture.patch = patch_outline(*box, {grid.family, best->setting}, x, y);
+  if (a.rules) add_rules(picture, a, shown, best, x, y);
   for (const std::string& text : a.settings) {
     const auto named = named_loop(text, grid.family, fixed_setting(grid));
     picture.marks.push_back({place(named.loop.setting, x, y), named.label});
@@ -221,6 +290,10 @@ void add_plot_map(CLI::App& plot, Invocation& invocation) {
   kind->add_option("--plant", a->plant, "K=..,Td=..[,T1=..]: measures in the units of this plant");
   add_many(*kind, "--setting", a->settings, "LABEL: kappa=.. tau_i=..: a setting to mark; any number of times");
   add_log(*kind, *a, "x, y, colour: logarithmic scales, with commas between them");
+  kind->add_flag("--rules", a->rules, "tuning rules that lie in the picture, numbered, with their regret");
+  kind->add_option(
+      "--uncertain", a->uncertain,
+      "K=lo..hi,Td=lo..hi[,T1=lo..hi]: the optimum for every plant of this box, and where its controller goes");
   kind->add_flag("--stability", a->stability, "draw the limit of stability, computed on the spot");
   kind->callback([a, &invocation] { invocation.exit_code = map(*a, invocation); });
 }

@@ -8,13 +8,14 @@
 namespace portrait::tools {
 
 struct MapArguments : PlotArguments {
-  std::string x, y, colour;
+  std::string x, y, colour, uncertain;
   int levels = 12;
-  bool stability = false;
+  bool stability = false, rules = false;
 };
 
 struct FrontArguments : PlotArguments {
   std::string x, y;
+  bool rules = false;
 };
 
 struct PortraitPicture {

@@ -145,15 +145,15 @@ RuleOnPortrait rule_on(const rules::Rule& rule, const Grid& grid, const Question
   return r;
 }
 
-std::string remark(const Question& question, const RuleOnPortrait& r) {
+}  // namespace
+
+std::string rule_remark(const Question& question, const RuleOnPortrait& r) {
   if (r.admissible) return "admissible";
   if (r.status != Status::settled && r.violated.empty()) return std::string(to_string(r.status));
   if (r.status == Status::unstable || r.violated.empty()) return std::string(to_string(r.status));
   return "violates " + question.conditions.where[r.violated[0]].text() +
          (r.violated.size() > 1 ? fmt::format(" and {} more", r.violated.size() - 1) : "");
 }
-
-}  // namespace
 
 std::vector<RuleOnPortrait> rules_on(const Grid& grid, const Question& question, std::optional<double> optimum) {
   std::vector<RuleOnPortrait> all;
@@ -202,7 +202,7 @@ std::string rules_text(const Grid& grid, const Question& question, const std::ve
       continue;
     }
     text += fmt::format("  {:<20} {:>12} {:>8}  {}; {}{}\n", r.rule->name, short_number(r.objective),
-                        std::isnan(r.regret) ? "" : fmt::format("{:.3f}", r.regret), remark(question, r),
+                        std::isnan(r.regret) ? "" : fmt::format("{:.3f}", r.regret), rule_remark(question, r),
                         setting_text(Loop{grid.family, r.setting}),
                         r.off_axes.empty() ? "" : fmt::format("; off the axes {}", fmt::join(r.off_axes, ", ")));
   }

@@ -31,6 +31,9 @@ struct RuleOnPortrait {
 /// Throws InputError when the portrait's plant is not known: tau_1 is an axis and no plant was given.
 std::vector<RuleOnPortrait> rules_on(const Grid& grid, const Question& question, std::optional<double> optimum);
 
+/// "admissible", or why not.
+std::string rule_remark(const Question& question, const RuleOnPortrait& r);
+
 Json json_rules(const Grid& grid, const Question& question, const std::vector<RuleOnPortrait>& rules);
 std::string rules_text(const Grid& grid, const Question& question, const std::vector<RuleOnPortrait>& rules);
 

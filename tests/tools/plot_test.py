@@ -110,6 +110,57 @@ class Map(Plot):
         self.near(x.value(px), mine["Ms"], 0.02)
         self.near(y.value(py), mine["IAE_w"] + mine["IAE_d"], 2)
 
+    def test_rules_are_numbered_points_with_their_regret(self):
+        question = ("--minimize", "IAE_w + IAE_d", "--where", "Ms <= 2.5")
+        rules = [r for r in self.run_program("query", "p.h5", *question, "--rules", "--json").json["rules"] if r["applicable"]]
+        figure = self.figure("map", "p.h5", *question, "--rules")
+        x, y = figure.axes()
+        self.assertGreater(len(rules), 4)
+        labels = [text for text, _, _ in figure.texts()]
+        for k, rule in enumerate(rules, 1):
+            at = rule["settings"]
+            label = f"{k}  {rule['rule']}" + (f", regret {rule['regret']:.3g}" if rule["regret"] is not None else "")
+            title = next(text for text in labels if text.startswith(label))
+            self.assertEqual(title == label, rule["admissible"])
+            px, py = figure.points(figure.plot(title))[0]
+            self.near(x.value(px), at["kappa"], 1e-3)
+            self.near(y.value(py), at["delta"], 5e-3)
+            self.assertIn(str(k), labels)
+
+    def test_rules_beside_the_front(self):
+        arguments = ("front", "p.h5", "--x", "Ms", "--y", "IAE_w + IAE_d", "--where", "Ms <= 3", "--rules")
+        rules = self.run_program("query", "p.h5", "--minimize", "IAE_w + IAE_d", "--where", "Ms <= 3", "--rules", "--json").json["rules"]
+        qrdp = next(r for r in rules if r["rule"] == "huba2022-qrdp")
+        figure = self.figure(*arguments)
+        x, y = figure.axes()
+        title = next(t for t, _, _ in figure.texts() if t.endswith(f"huba2022-qrdp, regret {qrdp['regret']:.3g}"))
+        px, py = figure.points(figure.plot(title))[0]
+        self.near(x.value(px), qrdp["measures"]["Ms"], 0.02)
+        self.near(y.value(py), qrdp["objective"], 2)
+        self.assertIn("huba2022-trdp", self.plot(*arguments, "-o", "again.svg").err)  # no integral action: no IAE_d
+
+    def test_uncertain_plant_draws_the_robust_optimum_and_where_it_goes(self):
+        question = ("--minimize", "IAE_w + IAE_d", "--where", "Ms <= 2.5", "--uncertain", "K=0.8..1.2,Td=0.9..1.1")
+        best = self.run_program("query", "p.h5", *question, "--json").json["optimum"]
+        figure = self.figure("map", "p.h5", *question)
+        x, y = figure.axes()
+        px, py = figure.points(figure.plot(f"optimum, {best['objective']:.6g}"))[0]
+        kappa, delta = best["settings"]["kappa"], best["settings"]["delta"]
+        self.near(x.value(px), kappa, 1e-3)
+        edge = [(x.value(a), y.value(b)) for line in figure.lines(figure.plot("the optimum, plant uncertain")) for a, b in line]
+        drawn = [p for p in edge if 0.05 < p[0] < 0.35]
+        # kappa = Kc K Td^2 and delta = Kd K Td at the corners of the box; the middle plant has K = Td = 1.
+        for K, Td in ((0.8, 0.9), (1.2, 0.9), (0.8, 1.1), (1.2, 1.1)):
+            corner = (kappa * K * Td * Td, delta * K * Td)
+            if corner[0] < 0.35 and 0.3 < corner[1] < 1:
+                self.assertLess(min(math.hypot((a - corner[0]) / 0.3, (b - corner[1]) / 0.7) for a, b in drawn), 0.01, corner)
+
+    def test_rules_and_boxes_need_a_question(self):
+        self.assert_fails(self.run_program("plot", "map", "p.h5", "--colour", "Ms", "--rules", "-o", "a.svg"), 2,
+                          "--rules needs --minimize, which the regret is about")
+        self.assert_fails(self.run_program("plot", "map", "p.h5", "--colour", "Ms", "--uncertain", "K=1..2", "-o", "a.svg"), 2,
+                          "--uncertain needs --minimize: the optimum is the controller whose box is drawn")
+
     def test_nothing_admissible_is_drawn_and_said(self):
         result = self.plot("map", "p.h5", "--minimize", "IAE_d", "--where", "Ms <= 1", "-o", "none.svg", code=3)
         self.assertIn("no setting is admissible", result.err)

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "tools/pictures/key.h"
 #include "tools/pictures/labels.h"
 
 namespace portrait::pictures {
 namespace {
 
 constexpr Size kSize{20, 10};
-constexpr double kRowOfKey = 1.25, kRowHeight_cm = 0.43;  // in characters; a little more than the font's
 constexpr Point kPanel{37, 17};  // a panel in characters, about
 constexpr std::array<int, 6> kSymbols = {7, 5, 9, 11, 13, 6};
 
@@ -40,9 +40,7 @@ struct Window {
   double x1 = 0, y0 = INFINITY, y1 = -INFINITY;
 
   bool is_empty() const { return !(y0 <= y1); }
-  Point in_characters(Point p) const {
-    return {p.x / x1 * kPanel.x, (p.y - y0) / (y1 - y0) * kPanel.y};
-  }
+  Point in_characters(Point p) const { return {p.x / x1 * kPanel.x, (p.y - y0) / (y1 - y0) * kPanel.y}; }
 };
 
 Window window(const Characteristics& picture, Deviation deviation) {
@@ -127,12 +125,12 @@ void panel(Script& script, const Characteristics& picture, Deviation deviation, 
 }  // namespace
 
 Script script(const Characteristics& picture) {
-  // One key for both panels, a row a curve, in a strip of its own below them.
-  const double rows = kRowOfKey * static_cast<double>(picture.curves.size());
-  Script script({kSize.width_cm, kSize.height_cm + kRowHeight_cm * rows});
+  std::vector<std::string> titles;
+  for (const CharacteristicCurve& curve : picture.curves) titles.push_back(curve.label);
+  const Key key = key_below(titles, kSize.width_cm);
+  Script script({kSize.width_cm, kSize.height_cm + key.height_cm});
   script.line("set multiplot layout 1,2 title " + quoted(picture.title));
-  script.line(fmt::format("set bmargin {:.3g}\nset key at screen 0.5, character {:.3g} center top samplen 3",
-                          rows + 3.8, rows + 0.3));
+  script.line(key.lines);  // one for both panels
   panel(script, picture, &CharacteristicAt::effort, picture.effort_label);
   script.line("unset key");
   panel(script, picture, &CharacteristicAt::wobbling, picture.wobbling_label);

@@ -15,6 +15,7 @@ struct Front {
   std::vector<Point> settings;  ///< dominated ones, as a cloud
   Outline front;                ///< from the least x to the least y
   std::vector<Mark> marks;
+  std::vector<Mark> rules;  ///< with a number beside each
 };
 
 Script script(const Front& front);

@@ -9,7 +9,7 @@
 namespace portrait::pictures {
 namespace {
 
-constexpr double kGap = 0.8;        // between a point and its text, in characters
+constexpr double kGap = 1.0;        // between a point and its text, in characters
 constexpr double kTextWeight = 20;  // hiding a text is worse than hiding a point, and leaving the panel as bad
 
 struct Box {

@@ -6,10 +6,16 @@
 
 #include <fmt/format.h>
 
+#include "tools/pictures/key.h"
+#include "tools/pictures/numbered.h"
+
 namespace portrait::pictures {
 namespace {
 
-constexpr Size kSize{17, 12.5};
+constexpr Size kSize{17, 11.7};
+constexpr Point kPanel{60, 19};  // in characters, about
+constexpr const char *kStabilityTitle = "limit of stability", *kRegionTitle = "admissible region",
+                     *kSettingsTitle = "admissible settings", *kPatchTitle = "the optimum, plant uncertain";
 constexpr double kShareInRange = 0.95;
 
 double level(const std::pair<double, double>& range, int k, int levels, bool log) {
@@ -61,14 +67,17 @@ void scale(Script& script, const Map& map, const std::pair<double, double>& rang
 std::string overlay(Script& script, const Map& map) {
   std::string plots;
   if (!map.stability.empty())
-    plots += fmt::format(", {} using 1:2 with lines lw 1.5 lc rgb '#d55e00' dt 2 title 'limit of stability'",
-                         script.data(map.stability));
+    plots += fmt::format(", {} using 1:2 with lines lw 1.5 lc rgb '#d55e00' dt 2 title '{}'",
+                         script.data(map.stability), kStabilityTitle);
   if (!map.admissible.empty())
-    plots += fmt::format(", {} using 1:2 with lines lw 2.2 lc rgb 'black' title 'admissible region'",
-                         script.data(map.admissible));
+    plots += fmt::format(", {} using 1:2 with lines lw 2.2 lc rgb 'black' title '{}'", script.data(map.admissible),
+                         kRegionTitle);
   if (!map.admissible_settings.empty())
-    plots += fmt::format(", {} using 1:2 with points pt 6 ps 0.7 lw 1.2 lc rgb 'black' title 'admissible settings'",
-                         script.data({map.admissible_settings}));
+    plots += fmt::format(", {} using 1:2 with points pt 6 ps 0.7 lw 1.2 lc rgb 'black' title '{}'",
+                         script.data({map.admissible_settings}), kSettingsTitle);
+  if (!map.patch.empty())
+    plots += fmt::format(", {} using 1:2 with lines lw 2 lc rgb '#a40000' dt 2 title '{}'", script.data(map.patch),
+                         kPatchTitle);
   plots += marked(script, map.marks);
   if (map.optimum)
     plots += fmt::format(", {} using 1:2 with points pt 3 ps 1.8 lw 2.6 lc rgb '#d00000' title {}",
@@ -111,19 +120,51 @@ std::pair<double, double> usual_range(const Field& field) {
 
 bool spreads(const std::pair<double, double>& range) { return range.first > 0 && range.second > 8 * range.first; }
 
+namespace {
+
+std::vector<std::string> titles_of(const Map& map) {
+  std::vector<std::string> titles;
+  if (!map.stability.empty()) titles.emplace_back(kStabilityTitle);
+  if (!map.admissible.empty()) titles.emplace_back(kRegionTitle);
+  if (!map.admissible_settings.empty()) titles.emplace_back(kSettingsTitle);
+  if (!map.patch.empty()) titles.emplace_back(kPatchTitle);
+  for (const Mark& mark : map.marks) titles.push_back(mark.label);
+  if (map.optimum) titles.push_back(map.optimum->label);
+  for (const Mark& mark : map.rules) titles.push_back("12  " + mark.label);
+  return titles;
+}
+
+std::string rules(Script& script, const Map& map) {
+  if (map.rules.empty()) return "";
+  const auto span = [](const std::vector<double>& values, bool log) {
+    return Span{values.front(), values.back(), log};
+  };
+  std::vector<Point> drawn = map.admissible_settings;
+  for (const Mark& mark : map.marks) drawn.push_back(mark.at);
+  if (map.optimum) drawn.push_back(map.optimum->at);
+  for (const auto* lines : {&map.admissible, &map.stability, &map.patch})
+    for (const Outline& line : *lines) drawn.insert(drawn.end(), line.begin(), line.end());
+  script.line("set style textbox opaque noborder margins 0.2,0.2");
+  return numbered(script, map.rules, span(map.field.x, map.field.log_x), span(map.field.y, map.field.log_y), kPanel,
+                  drawn);
+}
+
+}  // namespace
+
 Script script(const Map& map) {
-  Script script(kSize);
+  const Key key = key_below(titles_of(map), kSize.width_cm);
+  Script script({kSize.width_cm, kSize.height_cm + key.height_cm});
   const auto range = map.range.value_or(usual_range(map.field));
   script.line("set title " + quoted(map.title));
   script.line("set xlabel " + quoted(map.x_label));
   script.line("set ylabel " + quoted(map.y_label));
-  script.line("set key below horizontal samplen 2\nset bmargin 6");
+  script.line(key.lines);
   script.line(fmt::format("set xrange {}\nset yrange {}", limits(map.field.x, map.field.log_x),
                           limits(map.field.y, map.field.log_y)));
   if (map.field.log_x) script.line("set logscale x");
   if (map.field.log_y) script.line("set logscale y");
   scale(script, map, range);
-  const std::string plots = areas(script, map, range) + overlay(script, map);
+  const std::string plots = areas(script, map, range) + overlay(script, map) + rules(script, map);
   // Nothing to see, but it brings the scale of colours.
   script.line("plot NaN with points palette notitle" + plots);
   return script;

@@ -27,6 +27,8 @@ struct Map {
   std::vector<Outline> stability;  ///< the boundary
   std::optional<Mark> optimum;
   std::vector<Mark> marks;
+  std::vector<Mark> rules;     ///< with a number beside each
+  std::vector<Outline> patch;  ///< where a fixed real controller goes while the plant moves
 };
 
 /// Smallest value and the one below which 95 % lie, so that the wall next to instability does not take all colours.

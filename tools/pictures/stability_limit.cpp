@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 
 #include "engine/loop/stability.h"
+#include "tools/pictures/key.h"
 
 namespace portrait::pictures {
 namespace {
 
 constexpr int kHalvings = 20;
-constexpr Size kSize{16, 12};
+constexpr Size kSize{16, 11};
 
 double state(const Loop& loop) {
   if (why_invalid(loop)) return kNaN;
@@ -50,11 +51,14 @@ std::vector<Outline> stability_limit(const Plane& plane, const Field& field) {
 }
 
 Script script(const StabilityPicture& picture, const Plane& plane, const Field& field) {
-  Script script(kSize);
+  std::vector<std::string> titles{"stable", "limit of stability"};
+  for (const Mark& mark : picture.marks) titles.push_back(mark.label);
+  const Key key = key_below(titles, kSize.width_cm);
+  Script script({kSize.width_cm, kSize.height_cm + key.height_cm});
   script.line("set title " + quoted(picture.title));
   script.line("set xlabel " + quoted(picture.x_label));
   script.line("set ylabel " + quoted(picture.y_label));
-  script.line("set key below horizontal samplen 2\nset bmargin 6");
+  script.line(key.lines);
   script.line(fmt::format("set xrange {}\nset yrange {}", limits(field.x, false), limits(field.y, false)));
   std::string plots = "plot NaN notitle";
   const auto area = areas_above(field, 0, stability_crossing(plane, field));
