@@ -52,7 +52,6 @@ class NoiseAnswer {
 
   /// sigma of u at the instants over sigma of the noise, once it is stationary: sqrt(sum g_j^2).
   double u_sigma_ratio() const { return sigma_ratio(u_taps_); }
-  double y_sigma_ratio() const { return sigma_ratio(y_taps_); }
   /// The same of the increments u_k - u_(k-1): their mean magnitude, times samples, is TV of a loop at rest; for
   /// Gaussian noise it is sqrt(2/pi) sigma.
   double u_increment_ratio() const;

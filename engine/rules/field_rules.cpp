@@ -232,6 +232,7 @@ Tuned taguchi_pid_rule(const RulePlant& p, const Choices& c) { return taguchi("t
 
 }  // namespace
 
+// Long: one row a rule, wrapped by its formatter.
 std::vector<Rule> field_rules() {
   const OptionInfo Tc = {"Tc", "time constant of the target", ""};
   const OptionInfo Tf = {"Tf", "time constant of the filter 1/(Tf s + 1)^n", ""},
