@@ -1,6 +1,7 @@
 #include "bench/cases.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -75,8 +76,9 @@ std::vector<Case> few_of_each(const std::vector<Case>& all) {
 }
 
 Grid sweep_grid(std::uint64_t count) {
-  const std::uint64_t times = std::max<std::uint64_t>(2, count / 4);
-  return parse_grid(fmt::format(kHead, "dipdt") + around_qrdp(0.1, 2, times), "sweep");
+  constexpr std::uint64_t kTimes = 32;  // as in the boxes above
+  const auto gains = std::max(2, static_cast<int>(std::sqrt(static_cast<double>(count / kTimes))));
+  return parse_grid(fmt::format(kHead, "dipdt") + around_qrdp(0.1, gains, kTimes), "sweep");
 }
 
 std::vector<Measure> timed_measures() {

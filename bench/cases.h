@@ -31,7 +31,7 @@ std::vector<Case> cases();
 /// The same with few settings, from all over each box.
 std::vector<Case> few_of_each(const std::vector<Case>& all);
 
-/// `count` settings (at least 8, rounded to a multiple of 4) of the box of dipdt-pid, for sweeps of any length.
+/// About `count` settings (at least 128) of the box of dipdt-pid, for sweeps of any length.
 Grid sweep_grid(std::uint64_t count);
 
 /// All but noise_gain, which asks for a sampling time: what the engine computes while it is timed.

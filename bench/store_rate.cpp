@@ -119,7 +119,7 @@ void measure_stages(std::uint64_t tiles, const std::filesystem::path& folder) {
   for (std::uint64_t tile = 0; tile < tiles; ++tile) {
     std::optional<EncodedTile> encoded;
     add(encode, cost_of([&] { encoded = writer.encode(tile, samples[tile % samples.size()]); }));
-    add(write, cost_of([&] { writer.write(*encoded); }));
+    add(write, cost_of([&] { writer.write(std::move(*encoded)); }));
   }
   const Cost publish = cost_of([&] { writer.publish({}); });
   const Cost verified = cost_of([&] { verify(path); });

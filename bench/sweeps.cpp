@@ -30,7 +30,7 @@ void sweep_to_file(const Grid& grid, int threads, const std::filesystem::path& p
   PortraitWriter writer(path, grid, {"portrait_bench", method_text(Method::kernel)}, Existing::replace);
   run_sweep(grid, threads, [&](std::uint64_t tile, const MeasureColumns& columns) {
     return [&writer, encoded = std::make_shared<EncodedTile>(writer.encode(tile, columns))] {
-      writer.write(*encoded);
+      writer.write(std::move(*encoded));
     };
   });
   writer.publish({0, threads});
@@ -80,7 +80,7 @@ void register_sweep(const char* name, const std::shared_ptr<const Grid>& grid, c
 
 void register_sweeps(const Effort& effort) {
   // Storing has a beginning and an end of its own, of some hundredths of a second: a sweep worth storing is longer.
-  constexpr std::uint64_t kStoredSweeps = 4;
+  constexpr std::uint64_t kStoredSweeps = 8;
   using Left = std::unique_ptr<FileForAWhile>;
   const std::uint64_t count = effort.sweep_settings > 0 ? effort.sweep_settings : settings_for(0.5);
   const auto grid = std::make_shared<const Grid>(sweep_grid(count));

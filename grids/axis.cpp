@@ -1,8 +1,10 @@
 #include "grids/axis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,8 +22,24 @@ int decimal_exponent(double from, double to) {
   return static_cast<int>(std::floor(std::log10(std::max(std::abs(from), std::abs(to)))));
 }
 
-/// Through text, since only a decimal conversion gives the double nearest to a decimal number. No -0.
+constexpr std::array kPowersOfTen = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};  // all exact
+
+/// A decimal number of so many digits is the quotient of two whole numbers that are doubles, and division rounds as
+/// reading its text does. Nothing where the last digit is too near a tie for long double to tell.
+std::optional<double> as_quotient(double value, int decimals) {
+  if (decimals < 0 || decimals >= static_cast<int>(kPowersOfTen.size())) return std::nullopt;
+  const double power = kPowersOfTen[static_cast<std::size_t>(decimals)];
+  const long double scaled = static_cast<long double>(value) * power;
+  const long double whole = std::rint(scaled);
+  constexpr long double kLargestWhole = 0x1p53L, kDoubt = 0x1p-10L;
+  if (std::abs(whole) > kLargestWhole || std::abs(std::abs(scaled - whole) - 0.5L) < kDoubt) return std::nullopt;
+  return static_cast<double>(whole) / power;
+}
+
+/// The double nearest to the decimal number. No -0.
 double rounded(double value, int decimals) {
+  if (const auto quotient = as_quotient(value, decimals)) return *quotient + 0.0;
   const std::string text =
       decimals >= 0 ? fmt::format("{:.{}f}", value, decimals) : fmt::format("{:.{}e}", value, kDigits - 1);
   return parse_number(text).value() + 0.0;
@@ -48,7 +66,9 @@ double Axis::most_logarithmic(double from, double to) {
 Axis Axis::linear(Parameter parameter, double from, double to, std::uint64_t count) {
   PORTRAIT_CHECK(std::isfinite(from) && std::isfinite(to) && from < to);
   PORTRAIT_CHECK(count >= 2 && static_cast<double>(count) <= most_linear(from, to));
-  return {parameter, Scale::linear, from, to, count};
+  Axis axis(parameter, Scale::linear, from, to, count);
+  axis.decimals_ = kDigits - 1 - decimal_exponent(from, to);
+  return axis;
 }
 
 Axis Axis::logarithmic(Parameter parameter, double from, double to, std::uint64_t count) {
@@ -72,7 +92,7 @@ Axis Axis::list(Parameter parameter, std::vector<double> values) {
 double Axis::linear_value(std::uint64_t i) const {
   const long double part = static_cast<long double>(i) / static_cast<long double>(size_ - 1);
   const long double value = from_ * (1 - part) + to_ * part;
-  return rounded(static_cast<double>(value), kDigits - 1 - decimal_exponent(from_, to_));
+  return rounded(static_cast<double>(value), decimals_);
 }
 
 double Axis::logarithmic_value(std::uint64_t i) const {

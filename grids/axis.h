@@ -49,6 +49,7 @@ class Axis {
   Scale scale_;
   double from_, to_;
   std::uint64_t size_;
+  int decimals_ = 0;  ///< of a linear axis: as many as its values have
   std::vector<double> list_;
 };
 

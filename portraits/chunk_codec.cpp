@@ -1,10 +1,12 @@
 #include "portraits/chunk_codec.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include <zlib.h>
 
+#include "engine/base/clones.h"
 #include "portraits/fletcher32.h"
 #include "portraits/run_deflate.h"
 
@@ -12,14 +14,23 @@ namespace portrait {
 namespace {
 
 template <typename Word>
-std::size_t repeated(std::span<const std::byte> values) {
-  std::size_t count = 0;
-  for (std::size_t at = 2 * sizeof(Word); at < values.size(); at += sizeof(Word)) {
-    Word last[3];
-    std::memcpy(last, values.data() + at - 2 * sizeof(Word), sizeof last);
-    count += last[0] == last[2] && last[1] == last[2] ? 1 : 0;
-  }
-  return count;
+[[gnu::always_inline]] inline std::size_t repeated(const std::byte* values, std::size_t count) {
+  const auto value = [values](std::size_t i) {
+    Word word;
+    std::memcpy(&word, values + i * sizeof(Word), sizeof(Word));
+    return word;
+  };
+  std::size_t repeats = 0;
+  for (std::size_t i = 2; i < count; ++i) repeats += value(i) == value(i - 1) && value(i) == value(i - 2) ? 1 : 0;
+  return repeats;
+}
+
+PORTRAIT_CLONES std::size_t repeated_doubles(const std::byte* values, std::size_t count) {
+  return repeated<std::uint64_t>(values, count);
+}
+
+PORTRAIT_CLONES std::size_t repeated_floats(const std::byte* values, std::size_t count) {
+  return repeated<std::uint32_t>(values, count);
 }
 
 /// From bytes of one place together to values together.
@@ -47,10 +58,11 @@ std::uint32_t little_endian(std::span<const std::byte> four) {
 }  // namespace
 
 bool repeats(std::span<const std::byte> values, std::size_t element) {
-  const std::size_t count = element == 8   ? repeated<std::uint64_t>(values)
-                            : element == 4 ? repeated<std::uint32_t>(values)
-                                           : repeated<std::uint8_t>(values);
-  return 2 * count >= values.size() / element;
+  const std::size_t count = values.size() / element;
+  const std::size_t repeating = element == 8   ? repeated_doubles(values.data(), count)
+                                : element == 4 ? repeated_floats(values.data(), count)
+                                               : repeated<std::uint8_t>(values.data(), count);
+  return 2 * repeating >= count;
 }
 
 std::vector<std::byte> deflated_chunk(std::span<const std::byte> values, std::size_t element) {
@@ -60,9 +72,12 @@ std::vector<std::byte> deflated_chunk(std::span<const std::byte> values, std::si
 }
 
 void append_checksum(std::vector<std::byte>& chunk) {
-  const std::uint32_t checksum = fletcher32(chunk);
-  const auto bytes = std::as_bytes(std::span(&checksum, 1));
-  chunk.insert(chunk.end(), bytes.begin(), bytes.end());
+  const std::array checksum = checksum_of(chunk);
+  chunk.insert(chunk.end(), checksum.begin(), checksum.end());
+}
+
+std::array<std::byte, kChecksumBytes> checksum_of(std::span<const std::byte> chunk) {
+  return std::bit_cast<std::array<std::byte, kChecksumBytes>>(fletcher32(chunk));
 }
 
 std::string_view decode_chunk(std::span<const std::byte> stored, ChunkForm form, std::size_t element,

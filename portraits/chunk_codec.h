@@ -5,6 +5,7 @@
 /// noted so in its filter mask; fletcher32 is never left out. Which of the two depends on the values alone.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,6 +30,7 @@ bool repeats(std::span<const std::byte> values, std::size_t element);
 /// A whole chunk shuffled, deflated and checksummed. A plain one is its values, checksummed.
 std::vector<std::byte> deflated_chunk(std::span<const std::byte> values, std::size_t element);
 void append_checksum(std::vector<std::byte>& chunk);
+std::array<std::byte, kChecksumBytes> checksum_of(std::span<const std::byte> chunk);
 
 /// Undoes what was done to a chunk. REQUIRES: `values` has room for the chunk, exactly.
 /// Gives back what is wrong, empty when nothing is: damage never becomes other values than a digest will tell.

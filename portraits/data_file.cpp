@@ -2,26 +2,22 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <new>
 #include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include "engine/base/error.h"
+#include "portraits/digest.h"
 #include "portraits/disk.h"
 
 namespace portrait {
 namespace {
 
 constexpr mode_t kMode = 0666;
-
-std::uint64_t whole_pages(std::uint64_t bytes) {
-  return (bytes + DataFile::kPage - 1) / DataFile::kPage * DataFile::kPage;
-}
 
 }  // namespace
 
@@ -33,7 +29,7 @@ std::unique_ptr<DataFile> DataFile::reopen(const std::filesystem::path& path, st
   return std::unique_ptr<DataFile>(new DataFile(path, 0, whole_pages(std::max(end, kHeadBytes))));
 }
 
-DataFile::DataFile(const std::filesystem::path& path, int flags, std::uint64_t end) : path_(path), end_(end) {
+DataFile::DataFile(const std::filesystem::path& path, int flags, std::uint64_t end) : path_(path), end_(end), written_to_(end) {
   descriptor_ = open(path.c_str(), O_RDWR | O_CLOEXEC | O_DIRECT | flags, kMode);
   if (descriptor_ < 0 && errno == EINVAL) {  // no such thing here; the file may have been made all the same
     direct_ = false;
@@ -46,10 +42,7 @@ DataFile::DataFile(const std::filesystem::path& path, int flags, std::uint64_t e
     errno = reason;
     failed("cut it to its length");
   }
-  current_ = {new_block(), 0, end};
-  read_back_ = new_block();
-  while (free_.size() + 1 < kBlocks) free_.push_back(new_block());
-  thread_ = std::thread([this] { write_blocks(); });
+  thread_ = std::thread([this] { write_pieces(); });
 }
 
 DataFile::~DataFile() {
@@ -62,64 +55,33 @@ DataFile::~DataFile() {
   close(descriptor_);
 }
 
-void DataFile::Unmapped::operator()(std::byte* memory) const { std::free(memory); }
-
-DataFile::Memory DataFile::new_block() {
-  void* memory = std::aligned_alloc(kPage, kBlockBytes);
-  if (memory == nullptr) throw std::bad_alloc();
-  return Memory(static_cast<std::byte*>(memory));
-}
-
 void DataFile::failed(const char* doing) const { disk::failed(path_, doing); }
 
 // ---------------------------------------------------------------- whoever appends
 
-void DataFile::append(std::span<const std::byte> bytes) {
-  check_running();
-  while (!bytes.empty()) {
-    const std::size_t count = std::min(bytes.size(), kBlockBytes - current_.size);
-    std::memcpy(current_.bytes.get() + current_.size, bytes.data(), count);
-    current_.size += count;
-    end_ += count;
-    bytes = bytes.subspan(count);
-    if (current_.size == kBlockBytes) hand_over();
-  }
+void DataFile::append(Piece piece) {
+  const std::size_t whole = whole_pages(piece.size);
+  std::memset(piece.memory.get() + piece.size, 0, whole - piece.size);
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return unwritten_ < kPieces || failure_; });
+  rethrow_failure();
+  waiting_.push_back(std::move(piece));
+  ++unwritten_;
+  end_ += whole;
+  changed_.notify_all();
 }
 
 std::uint64_t DataFile::commit() {
-  check_running();
-  const std::size_t whole = whole_pages(current_.size);
-  std::memset(current_.bytes.get() + current_.size, 0, whole - current_.size);
-  end_ += whole - current_.size;
-  current_.size = whole;
-  if (whole > 0) hand_over();
   {
     std::unique_lock lock(mutex_);
+    committing_ = true;
+    changed_.notify_all();
     changed_.wait(lock, [&] { return unwritten_ == 0 || failure_; });
+    committing_ = false;
     rethrow_failure();
   }
   if (!disk::may("sync") || fdatasync(descriptor_) != 0) failed("sync it");
   return end_;
-}
-
-/// Waits for a free block: a slow disk slows the sweep and does not fill the memory.
-void DataFile::hand_over() {
-  std::unique_lock lock(mutex_);
-  rethrow_failure();
-  full_.push(std::move(current_));
-  ++unwritten_;
-  changed_.notify_all();
-  changed_.wait(lock, [&] { return !free_.empty() || failure_; });
-  rethrow_failure();
-  current_ = {std::move(free_.back()), 0, end_};
-  free_.pop_back();
-}
-
-/// After a failure there is no block in hand.
-void DataFile::check_running() {
-  if (current_.bytes) return;
-  const std::scoped_lock lock(mutex_);
-  rethrow_failure();
 }
 
 void DataFile::rethrow_failure() {
@@ -128,40 +90,72 @@ void DataFile::rethrow_failure() {
 
 // ---------------------------------------------------------------- the thread that writes
 
-void DataFile::write_blocks() {
+std::uint64_t DataFile::Row::size() const {
+  std::uint64_t size = 0;
+  for (const Piece& piece : pieces) size += whole_pages(piece.size);
+  return size;
+}
+
+void DataFile::write_pieces() {
   std::unique_lock lock(mutex_);
+  const auto row_is_due = [&] { return waiting_.size() >= kTogether || (committing_ && !waiting_.empty()); };
   while (true) {
-    changed_.wait(lock, [&] { return closing_ || (!full_.empty() && !failure_); });
+    changed_.wait(lock, [&] { return closing_ || (row_is_due() && !failure_); });
     if (closing_) return;  // what is not committed is not wanted
-    Block block = std::move(full_.front());
-    full_.pop();
+    Row row = next_row();
     lock.unlock();
     std::exception_ptr failure;
     try {
-      put_down(block);
+      put_down(row);
     } catch (...) {
       failure = std::current_exception();
     }
+    const std::size_t count = row.pieces.size();
+    row.pieces.clear();
     lock.lock();
     if (failure) failure_ = failure;
-    free_.push_back(std::move(block.bytes));
-    --unwritten_;
+    unwritten_ -= count;
     changed_.notify_all();
   }
 }
 
-void DataFile::put_down(const Block& block) {
-  write(block);
-  if (!direct_)  // only a hint: commit syncs
-    static_cast<void>(sync_file_range(descriptor_, static_cast<off_t>(block.at), static_cast<off_t>(block.size),
-                                      SYNC_FILE_RANGE_WRITE));
-  check(block);
+DataFile::Row DataFile::next_row() {
+  Row row{{}, written_to_};
+  for (; !waiting_.empty() && row.pieces.size() < kTogether; waiting_.pop_front())
+    row.pieces.push_back(std::move(waiting_.front()));
+  written_to_ += row.size();
+  return row;
 }
 
-void DataFile::write(const Block& block) {
-  for (std::size_t done = 0; done < block.size;) {
-    const ssize_t count = disk::may("write") ? pwrite(descriptor_, block.bytes.get() + done, block.size - done,
-                                                      static_cast<off_t>(block.at + done))
+void DataFile::put_down(const Row& row) {
+  write(row);
+  if (!direct_)  // only a hint: commit syncs
+    static_cast<void>(sync_file_range(descriptor_, static_cast<off_t>(row.at), static_cast<off_t>(row.size()),
+                                      SYNC_FILE_RANGE_WRITE));
+  check(row);
+}
+
+/// All at once; piece by piece when that does not succeed.
+void DataFile::write(const Row& row) {
+  iovec parts[kTogether];
+  for (std::size_t i = 0; i < row.pieces.size(); ++i)
+    parts[i] = {row.pieces[i].memory.get(), whole_pages(row.pieces[i].size)};
+  if (row.pieces.size() > 1 && disk::may("write") &&
+      pwritev(descriptor_, parts, static_cast<int>(row.pieces.size()), static_cast<off_t>(row.at)) ==
+          static_cast<ssize_t>(row.size()))
+    return;
+  std::uint64_t at = row.at;
+  for (const Piece& piece : row.pieces) {
+    write(piece, at);
+    at += whole_pages(piece.size);
+  }
+}
+
+void DataFile::write(const Piece& piece, std::uint64_t at) {
+  const std::size_t size = whole_pages(piece.size);
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = disk::may("write") ? pwrite(descriptor_, piece.memory.get() + done, size - done,
+                                                      static_cast<off_t>(at + done))
                                              : -1;
     if (count > 0)
       done += static_cast<std::size_t>(count);
@@ -170,7 +164,7 @@ void DataFile::write(const Block& block) {
     else if (count == 0 || errno != EINTR)
       failed("write to it");
     // What is left of a write that was cut short need not be aligned.
-    if (done < block.size && done % kPage != 0 && direct_) write_through_the_cache();
+    if (done < size && done % kPageBytes != 0 && direct_) write_through_the_cache();
   }
 }
 
@@ -180,18 +174,23 @@ void DataFile::write_through_the_cache() {
 }
 
 /// A disk that loses what it is given is noticed here.
-void DataFile::check(const Block& block) {
-  for (std::size_t done = 0; done < block.size;) {
-    const ssize_t count =
-        pread(descriptor_, read_back_.get() + done, block.size - done, static_cast<off_t>(block.at + done));
+void DataFile::check(const Row& row) {
+  const std::size_t size = row.size();
+  if (size > read_back_.get_deleter().bytes) read_back_ = page_memory(size);
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = pread(descriptor_, read_back_.get() + done, size - done, static_cast<off_t>(row.at + done));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) failed("read back what was written");
     if (count == 0) break;
     done += static_cast<std::size_t>(count);
-    if (done < block.size && done % kPage != 0 && direct_) write_through_the_cache();
+    if (done < size && done % kPageBytes != 0 && direct_) write_through_the_cache();
   }
-  if (std::memcmp(block.bytes.get(), read_back_.get(), block.size) != 0)
-    throw StoreError(fmt::format("{}: the disk does not give back what was written to it", path_.string()));
+  std::size_t first = 0;
+  for (const Piece& piece : row.pieces) {
+    if (digest_of(std::span<const std::byte>(read_back_.get() + first, piece.size)) != piece.digest)
+      throw StoreError(fmt::format("{}: the disk does not give back what was written to it", path_.string()));
+    first += whole_pages(piece.size);
+  }
 }
 
 }  // namespace portrait

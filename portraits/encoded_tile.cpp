@@ -1,10 +1,14 @@
 #include "portraits/encoded_tile.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
 #include "engine/base/check.h"
+#include "engine/base/clones.h"
+#include "portraits/chunk_codec.h"
 #include "portraits/digest.h"
+#include "portraits/tile_summary.h"
 
 namespace portrait {
 namespace {
@@ -17,61 +21,100 @@ std::size_t chunk_values(const TileRows& rows) {
 
 /// Every NaN becomes the same NaN: its sign and payload depend on the machine.
 template <typename Real>
-EncodedColumn encode_as(const std::vector<double>& values, std::size_t chunk_values) {
+[[gnu::always_inline]] inline void convert_as(const double* from, std::size_t count, std::byte* into) {
   constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();
-  std::vector<std::byte> bytes;
-  bytes.reserve(chunk_values * sizeof(Real) + kChecksumBytes);
-  bytes.resize(values.size() * sizeof(Real));
-  const double* from = values.data();
-  std::byte* into = bytes.data();
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     Real value = static_cast<Real>(from[i]);
     value = value != value ? nan : value;  // NOLINT(misc-redundant-expression): std::isnan stays out of vector code
     std::memcpy(into + i * sizeof(Real), &value, sizeof(Real));
   }
-  std::vector<double> summary = range_summary(bytes, sizeof(Real));
-  return {std::move(bytes), std::move(summary), std::as_bytes(std::span(&nan, 1)), chunk_values};
 }
 
-EncodedColumn encode_status(const std::vector<Status>& status, std::size_t chunk_values) {
-  const auto bytes = std::as_bytes(std::span(status));
-  constexpr std::byte fill{0};
-  return {{bytes.begin(), bytes.end()}, status_summary(bytes), std::span(&fill, 1), chunk_values};
+PORTRAIT_CLONES void convert_to_double(const double* from, std::size_t count, std::byte* into) {
+  convert_as<double>(from, count, into);
 }
+
+PORTRAIT_CLONES void convert_to_float(const double* from, std::size_t count, std::byte* into) {
+  convert_as<float>(from, count, into);
+}
+
+/// The chunks of a tile, one behind the other, each made where it stays.
+class ChunkRow {
+ public:
+  ChunkRow(const Grid& grid, std::size_t chunk_values)
+      : precision_(grid.precision), chunk_values_(chunk_values) {
+    const std::size_t largest = chunk_values * sizeof(double) + kChecksumBytes;
+    memory_ = page_memory((grid.measures.size() + 1) * largest);
+    next_ = memory_.get();
+  }
+
+  void add(const std::vector<double>& values) {
+    const bool twice = precision_ == Precision::real64;
+    const std::size_t element = twice ? sizeof(double) : sizeof(float);
+    (twice ? convert_to_double : convert_to_float)(values.data(), values.size(), next_);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    (twice ? convert_to_double : convert_to_float)(&nan, 1, fill_);
+    const std::span written(next_, values.size() * element);
+    finish(written, element, range_summary(written, element));
+  }
+
+  void add(const std::vector<Status>& status) {
+    const std::span written(next_, status.size());
+    std::copy_n(std::as_bytes(std::span(status)).begin(), status.size(), written.begin());
+    fill_[0] = std::byte{0};
+    finish(written, 1, status_summary(written));
+  }
+
+  EncodedTile tile(std::uint64_t number) {
+    const std::span<const std::byte> all(memory_.get(), next_);
+    const std::uint64_t digest = digest_of(all);
+    return {{.number = number, .stored_digest = digest, .chunks = std::move(chunks_)},
+            {std::move(memory_), all.size(), digest}};
+  }
+
+ private:
+  /// Of the values at `next_`: pads them to a whole chunk, deflates that where it pays, and appends the checksum.
+  void finish(std::span<const std::byte> values, std::size_t element, std::vector<double> summary) {
+    ChunkRecord record{.digest = digest_of(values), .summary = std::move(summary)};
+    const std::span chunk(next_, chunk_values_ * element);
+    PORTRAIT_CHECK(values.size() <= chunk.size());
+    for (std::size_t at = values.size(); at < chunk.size(); at += element) std::copy_n(fill_, element, &chunk[at]);
+    std::vector<std::byte> deflated;
+    if (repeats(chunk, element)) deflated = deflated_chunk(chunk, element);
+    if (deflated.empty() || deflated.size() >= chunk.size()) {  // the latter: a chunk of few values
+      const std::array checksum = checksum_of(chunk);
+      std::copy(checksum.begin(), checksum.end(), chunk.data() + chunk.size());
+      record.length = chunk.size() + checksum.size();
+    } else {
+      std::copy(deflated.begin(), deflated.end(), next_);
+      record.length = deflated.size();
+      record.form = ChunkForm::deflated;
+    }
+    next_ += record.length;
+    chunks_.push_back(std::move(record));
+  }
+
+  Precision precision_;
+  std::size_t chunk_values_;
+  PageMemory memory_;
+  std::byte* next_ = nullptr;
+  std::byte fill_[sizeof(double)] = {};  ///< the value that pads the column in hand
+  std::vector<ChunkRecord> chunks_;
+};
 
 }  // namespace
-
-EncodedColumn::EncodedColumn(std::vector<std::byte> values, std::vector<double> summary,
-                             std::span<const std::byte> fill, std::size_t chunk_values)
-    : plain_(std::move(values)),
-      value_bytes_(plain_.size()),
-      digest_(digest_of(plain_)),
-      summary_(std::move(summary)) {
-  const std::size_t chunk_bytes = chunk_values * fill.size();
-  PORTRAIT_CHECK(value_bytes_ <= chunk_bytes);
-  while (plain_.size() < chunk_bytes) plain_.insert(plain_.end(), fill.begin(), fill.end());
-  if (repeats(plain_, fill.size())) deflated_ = deflated_chunk(plain_, fill.size());
-  if (deflated_.size() >= chunk_bytes) deflated_.clear();  // a chunk of few values
-  append_checksum(plain_);
-}
 
 EncodedTile encode_tile(const Grid& grid, const TileRows& rows, std::uint64_t tile, const MeasureColumns& columns) {
   PORTRAIT_CHECK(tile < rows.tile_count());
   PORTRAIT_CHECK(columns.kept == grid.measures);
   PORTRAIT_CHECK_EQ(columns.settings(), rows.range(tile).count);
-  const std::size_t whole = chunk_values(rows);
-  EncodedTile encoded{tile, {}, encode_status(columns.status, whole)};
-  encoded.measures.reserve(columns.values.size());
+  ChunkRow row(grid, chunk_values(rows));
   for (const std::vector<double>& values : columns.values) {
     PORTRAIT_CHECK_EQ(values.size(), columns.settings());
-    encoded.measures.push_back(grid.precision == Precision::real64 ? encode_as<double>(values, whole)
-                                                                   : encode_as<float>(values, whole));
+    row.add(values);
   }
-  Digest stored;
-  for (const EncodedColumn& column : encoded.measures) stored.add(column.stored());
-  stored.add(encoded.status.stored());
-  encoded.stored_digest = stored.value();
-  return encoded;
+  row.add(columns.status);
+  return row.tile(tile);
 }
 
 }  // namespace portrait

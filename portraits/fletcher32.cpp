@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/base/clones.h"
+
 namespace portrait {
 namespace {
 
-constexpr std::size_t kLanes = 8;
+constexpr std::size_t kLanes = 32;
 constexpr std::size_t kRowBytes = kLanes * sizeof(std::uint16_t);
 /// Rows whose sums stay below 2^32: 65535 * 256 * 257 / 2 does.
 constexpr std::size_t kRows = 256;
@@ -30,7 +32,7 @@ struct LaneSums {
 };
 
 /// Not inline, and word by word: gcc 12 makes vector code of this, and plain code of the likes of it.
-[[gnu::noinline]] LaneSums lane_sums(const std::byte* from, std::size_t rows) {
+PORTRAIT_CLONES LaneSums lane_sums(const std::byte* from, std::size_t rows) {
   LaneSums sums;
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t lane = 0; lane < kLanes; ++lane) {

@@ -28,7 +28,7 @@ class Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  std::vector<std::byte> chunks(const TileRecord& tile) const { return read_chunks(descriptor_, path_, tile); }
+  Piece chunks(const TileRecord& tile) const { return read_chunks(descriptor_, path_, tile); }
   const std::filesystem::path& path() const { return path_; }
 
  private:
@@ -64,10 +64,10 @@ class Merge {
   std::vector<TileRecord> copy_to(DataFile& file) {
     std::vector<TileRecord> records;
     for (auto& [number, found] : tiles_) {
-      const std::vector<std::byte> bytes = found.source->chunks(found.record);
+      Piece chunks = found.source->chunks(found.record);
       found.record.address = file.end();
-      file.append(bytes);
-      report_.bytes += bytes.size();
+      report_.bytes += chunks.size;
+      file.append(std::move(chunks));
       records.push_back(std::move(found.record));
     }
     return records;

@@ -5,8 +5,8 @@
 ///
 /// result    the values, digests and chunks of the run that was never split
 /// errors    InputError: folders of different runs, tiles missing. IntegrityError: damage, or duplicates that differ
-/// cost      memory: the records of all tiles (about 2 KB a tile of 4096 settings), the chunks of one tile and the blocks
-///           of portraits/data_file.h. Time: bench/store_rate.cpp
+/// cost      memory: the records of all tiles (about 2 KB a tile of 4096 settings), and the chunks of a few
+///           (portraits/data_file.h). Time: bench/store_rate.cpp
 #pragma once
 
 #include <filesystem>

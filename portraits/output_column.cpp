@@ -10,6 +10,7 @@
 #include "engine/base/status.h"
 #include "portraits/plain_dataset.h"
 #include "portraits/schema.h"
+#include "portraits/tile_summary.h"
 #include "portraits/stored_grid.h"
 
 namespace portrait {

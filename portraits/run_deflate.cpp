@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 
 #include "engine/base/check.h"
 
@@ -170,10 +171,10 @@ class Plane {
 std::vector<std::byte> deflate_runs(std::span<const std::byte> values, std::size_t element) {
   const std::size_t count = values.size() / element;
   const std::vector<Run> runs = runs_of(values, element);
-  std::vector<std::byte> stream(values.size() / 8 * 9 + 32);  // 9 bits a byte, and what stands around them
+  const auto stream = std::make_unique_for_overwrite<std::byte[]>(values.size() / 8 * 9 + 64);  // 9 bits a byte, and more
   stream[0] = std::byte{0x78};                                // deflate, a window of 32 KiB
   stream[1] = std::byte{0x01};
-  BitWriter out(stream.data() + 2);
+  BitWriter out(&stream[2]);
   out.put({0b011, 3});  // the last block, of the fixed code
   Adler adler;
   for (std::size_t byte = 0; byte < element; ++byte) {
@@ -190,8 +191,7 @@ std::vector<std::byte> deflate_runs(std::span<const std::byte> values, std::size
   out.put(symbol(256));
   std::byte* end = out.finish();
   for (int shift = 24; shift >= 0; shift -= 8) *end++ = static_cast<std::byte>(adler.value() >> shift & 0xff);
-  stream.resize(static_cast<std::size_t>(end - stream.data()));
-  return stream;
+  return {stream.get(), end};
 }
 
 }  // namespace portrait

@@ -116,19 +116,20 @@ void RunFolder::remove_if_empty() const {
   disk::remove(path_);
 }
 
-std::vector<std::byte> read_chunks(int descriptor, const std::filesystem::path& data, const TileRecord& tile) {
-  std::vector<std::byte> bytes(stored_bytes(tile));
-  for (std::size_t done = 0; done < bytes.size();) {
+Piece read_chunks(int descriptor, const std::filesystem::path& data, const TileRecord& tile) {
+  const std::uint64_t size = stored_bytes(tile);
+  Piece piece{page_memory(size), size, tile.stored_digest};
+  for (std::size_t done = 0; done < size;) {
     const ssize_t count =
-        pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(tile.address + done));
+        pread(descriptor, piece.memory.get() + done, size - done, static_cast<off_t>(tile.address + done));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) disk::failed(data, "read it");
     if (count == 0) throw IntegrityError(fmt::format("{}: it ends before tile {}", data.string(), tile.number));
     done += static_cast<std::size_t>(count);
   }
-  if (digest_of(bytes) != tile.stored_digest)
+  if (digest_of(piece.bytes()) != tile.stored_digest)
     throw IntegrityError(fmt::format("{}: tile {} is not what was written", data.string(), tile.number));
-  return bytes;
+  return piece;
 }
 
 std::string data_problem(const std::filesystem::path& data, const Batch& batch) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "portraits/batch.h"
+#include "portraits/data_file.h"
 #include "portraits/run_manifest.h"
 
 namespace portrait {
@@ -84,6 +85,6 @@ class RunFolder {
 std::string data_problem(const std::filesystem::path& data, const Batch& batch);
 
 /// The chunks of a tile, as they are stored. Throws StoreError; IntegrityError when they are not what was written.
-std::vector<std::byte> read_chunks(int descriptor, const std::filesystem::path& data, const TileRecord& tile);
+Piece read_chunks(int descriptor, const std::filesystem::path& data, const TileRecord& tile);
 
 }  // namespace portrait

@@ -127,11 +127,12 @@ EncodedTile RunWriter::encode(std::uint64_t tile, const MeasureColumns& columns)
   return encode_tile(grid_, rows_, tile, columns);
 }
 
-void RunWriter::write(const EncodedTile& tile) {
-  PORTRAIT_CHECK(next_ < to_do_.size() && to_do_[next_] == tile.number);
-  pending_.push_back(append_tile(*data_, tile));
+void RunWriter::write(EncodedTile tile) {
+  const std::uint64_t number = tile.record.number;
+  PORTRAIT_CHECK(next_ < to_do_.size() && to_do_[next_] == number);
+  pending_.push_back(append_tile(*data_, std::move(tile)));
   ++next_;
-  done_[tile.number] = true;
+  done_[number] = true;
   ++done_count_;
   if (commit_is_due()) commit();
 }

@@ -11,7 +11,7 @@
 ///
 /// result    the same values, digests and chunks as an uninterrupted run: tests/portraits/run_kill_test.cpp
 /// errors    InputError: another run's folder, another writer, a stopped run that is not to be resumed. StoreError: disk
-/// cost      memory: a record per tile, and blocks (portraits/data_file.h)
+/// cost      memory: a record per tile, and some tiles (portraits/data_file.h)
 #pragma once
 
 #include <chrono>
@@ -60,7 +60,7 @@ class RunWriter {
   /// Any number of threads may encode while another writes.
   EncodedTile encode(std::uint64_t tile, const MeasureColumns& columns) const;
   /// REQUIRES: the next tile to do.
-  void write(const EncodedTile& tile);
+  void write(EncodedTile tile);
   /// Brings everything written so far to the disk.
   void commit();
 

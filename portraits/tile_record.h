@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "portraits/chunk_codec.h"
-#include "portraits/encoded_tile.h"
 
 namespace portrait {
 
@@ -27,8 +26,6 @@ struct TileRecord {
   std::vector<ChunkRecord> chunks;
   friend bool operator==(const TileRecord&, const TileRecord&) = default;
 };
-
-TileRecord record_of(const EncodedTile& tile, std::uint64_t address);
 
 /// Bytes of all chunks.
 std::uint64_t stored_bytes(const TileRecord& tile);

@@ -5,11 +5,10 @@
 
 namespace portrait {
 
-TileRecord append_tile(DataFile& file, const EncodedTile& tile) {
-  TileRecord record = record_of(tile, file.end());
-  for (const EncodedColumn& column : tile.measures) file.append(column.stored());
-  file.append(tile.status.stored());
-  return record;
+TileRecord append_tile(DataFile& file, EncodedTile tile) {
+  tile.record.address = file.end();
+  file.append(std::move(tile.chunks));
+  return std::move(tile.record);
 }
 
 PortraitWriter::PortraitWriter(const std::filesystem::path& path, const Grid& grid, const Provenance& provenance,
@@ -24,11 +23,11 @@ EncodedTile PortraitWriter::encode(std::uint64_t tile, const MeasureColumns& col
   return encode_tile(grid_, rows_, tile, columns);
 }
 
-void PortraitWriter::write(const EncodedTile& tile) {
+void PortraitWriter::write(EncodedTile tile) {
   PORTRAIT_CHECK(data_ != nullptr);
-  PORTRAIT_CHECK(tile.number == tiles_.size() && tiles_left() > 0);
-  PORTRAIT_CHECK_EQ(tile.measures.size(), grid_.measures.size());
-  tiles_.push_back(append_tile(*data_, tile));
+  PORTRAIT_CHECK(tile.record.number == tiles_.size() && tiles_left() > 0);
+  PORTRAIT_CHECK_EQ(tile.record.chunks.size(), grid_.measures.size() + 1);
+  tiles_.push_back(append_tile(*data_, std::move(tile)));
 }
 
 void PortraitWriter::publish(const RunFacts& facts) {

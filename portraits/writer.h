@@ -9,7 +9,7 @@
 /// quiet NaN, every measure in the grid's precision. A writer that is not published leaves nothing behind.
 ///
 /// errors    InputError: the file exists, or its directory does not. StoreError: disk or HDF5
-/// cost      memory: a record per tile, and blocks (portraits/data_file.h). Time: bench/store_rate.cpp
+/// cost      memory: a record per tile, and some tiles (portraits/data_file.h). Time: bench/store_rate.cpp
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@
 namespace portrait {
 
 /// Puts the chunks of a tile down and says where they lie.
-TileRecord append_tile(DataFile& file, const EncodedTile& tile);
+TileRecord append_tile(DataFile& file, EncodedTile tile);
 
 class PortraitWriter {
  public:
@@ -39,7 +39,7 @@ class PortraitWriter {
   /// as many settings as the tile has.
   EncodedTile encode(std::uint64_t tile, const MeasureColumns& columns) const;
   /// REQUIRES: the next tile of all.
-  void write(const EncodedTile& tile);
+  void write(EncodedTile tile);
 
   std::uint64_t tiles_left() const { return rows_.tile_count() - tiles_.size(); }
 

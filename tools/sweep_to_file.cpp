@@ -22,8 +22,9 @@ namespace {
 struct Tally {
   StatusCounts count{};
 
-  void add(const StatusCounts& of_tile) {
-    for (std::size_t code = 0; code < count.size(); ++code) count[code] += of_tile[code];
+  /// `of_tile`: how often each code occurs, as a tile's summary of its status.
+  void add(const std::vector<double>& of_tile) {
+    for (std::size_t code = 0; code < count.size(); ++code) count[code] += static_cast<std::uint64_t>(of_tile[code]);
   }
   std::uint64_t operator[](Status status) const { return count[static_cast<std::size_t>(status)]; }
 };
@@ -180,8 +181,8 @@ int sweep_to_file(const SweepArguments& a, const std::string& command_line, cons
   Progress progress(work.to_measure(), Progress::usual_style(a.quiet));
   const auto store = [&](std::uint64_t i, const MeasureColumns& columns) -> StoreStep {
     return [&, encoded = std::make_shared<EncodedTile>(run.encode(run.tiles_to_do()[i], columns))] {
-      run.write(*encoded);
-      tally.add(status_counts_of(encoded->status.values()));
+      tally.add(encoded->record.chunks.back().summary);
+      run.write(std::move(*encoded));
     };
   };
   job.prepare = [&](std::uint64_t i, const MeasureColumns& columns) {

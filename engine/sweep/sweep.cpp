@@ -48,10 +48,12 @@ class Worker {
   /// An exception must not leave a parallel region.
   void run() {
     try {
+      std::optional<std::uint64_t> own;
       while (!failure_.happened()) {
         if (job_.stop && job_.stop->load()) queue_.begin_no_more();
-        const auto slice = queue_.next();
+        const auto slice = queue_.next(own);
         if (!slice) return;
+        own = slice->tile->number;
         measure(*slice);
         queue_.finish(*slice);
         report();

@@ -30,7 +30,7 @@ struct SweepJob {
   Method method = Method::kernel;
   std::vector<Measure> measures;  ///< kept ones, in catalogue order
   std::uint64_t tile_count = 0;
-  /// The settings of a tile. Called by one thread at a time, in order of tiles.
+  /// The settings of a tile. Called once a tile, by many threads at once.
   std::function<std::vector<Setting>(std::uint64_t tile)> settings_of;
   /// Prepares a measured tile for storing, and gives back the step that stores it. Called by the worker that
   /// measured the last of the tile, many at once: here belongs what takes long. The steps are called by one thread

@@ -8,17 +8,12 @@ bool TileQueue::may_begin() const {
   return !ending_ && begun_ < tile_count_ && begun_ - stored_ < kTilesInMemory;
 }
 
-/// Settings and columns take as long as many slices: others go on meanwhile. Settings are made by one thread at a time.
-void TileQueue::begin_tile(std::unique_lock<std::mutex>& lock) {
-  lock.unlock();
-  std::unique_lock making(making_);
-  lock.lock();
-  if (closed_ || !open_.empty() || !may_begin()) return;  // another thread was faster
+/// Settings and columns take as long as many slices: others go on meanwhile.
+std::uint64_t TileQueue::begin_tile(std::unique_lock<std::mutex>& lock) {
   const std::uint64_t number = begun_++;
   ++coming_;  // for good where an exception leaves this function: the worker that catches it closes the queue
   lock.unlock();
   std::vector<Setting> settings = settings_of_(number);
-  making.unlock();
   const std::size_t count = settings.size();
   auto tile =
       std::make_shared<Tile>(Tile{number, std::move(settings), MeasureColumns(measures_, count), count, {}});
@@ -26,28 +21,32 @@ void TileQueue::begin_tile(std::unique_lock<std::mutex>& lock) {
   --coming_;
   open_.emplace(number, OpenTile{std::move(tile), 0});
   changed_.notify_all();
+  return number;
 }
 
-/// The next slice of the oldest tile; of a tile without settings one that is empty.
-Slice TileQueue::cut() {
-  const auto oldest = open_.begin();
-  OpenTile& open = oldest->second;
+/// Of a tile without settings a slice that is empty.
+Slice TileQueue::cut(OpenTiles::iterator from) {
+  OpenTile& open = from->second;
   const std::size_t settings = open.tile->settings.size();
   const Slice slice{open.tile, open.cut, std::min(kSliceSettings, settings - open.cut)};
   open.cut += slice.count;
-  if (open.cut == settings) open_.erase(oldest);
+  if (open.cut == settings) open_.erase(from);
   return slice;
 }
 
-std::optional<Slice> TileQueue::next() {
+std::optional<Slice> TileQueue::next(std::optional<std::uint64_t> own) {
   std::unique_lock lock(mutex_);
   const auto none_comes = [&] { return coming_ == 0 && (ending_ || begun_ == tile_count_); };
   for (;;) {
     changed_.wait(lock, [&] { return closed_ || !open_.empty() || may_begin() || none_comes(); });
     if (closed_) return std::nullopt;
-    if (!open_.empty()) return cut();
-    if (!may_begin()) return std::nullopt;
-    begin_tile(lock);
+    if (const auto found = own ? open_.find(*own) : open_.end(); found != open_.end()) return cut(found);
+    if (may_begin()) {
+      own = begin_tile(lock);
+      continue;
+    }
+    if (open_.empty()) return std::nullopt;
+    return cut(open_.begin());
   }
 }
 

@@ -47,15 +47,18 @@ class TileQueue {
   static constexpr std::uint64_t kTilesInMemory = 16;
   static constexpr std::size_t kSliceSettings = 128;
 
+  /// `settings_of` is called by many threads at once, each with another tile.
   TileQueue(std::vector<Measure> measures, std::uint64_t tile_count, SettingsOf settings_of, Prepare prepare)
       : measures_(std::move(measures)),
         tile_count_(tile_count),
         settings_of_(std::move(settings_of)),
         prepare_(std::move(prepare)) {}
 
-  /// The next slice to measure; nothing when all are given out, or the queue is closed. Waits while too many tiles
-  /// are in memory. REQUIRES: every other slice is being measured by another thread, or finished.
-  std::optional<Slice> next();
+  /// The next slice to measure: of the tile `own` that this thread was on, while it lasts, then of a new one, whose
+  /// memory stays with the thread's processor; of another thread's when no tile may be begun. Nothing when all are
+  /// given out, or the queue is closed. Waits while too many tiles are in memory.
+  /// REQUIRES: every other slice is being measured by another thread, or finished.
+  std::optional<Slice> next(std::optional<std::uint64_t> own = std::nullopt);
 
   /// Takes a measured slice back. The last one of a tile prepares it, beside other threads; then every tile whose
   /// turn has come is stored, by one thread at a time.
@@ -77,9 +80,11 @@ class TileQueue {
     std::size_t cut = 0;  ///< settings given out
   };
 
+  using OpenTiles = std::map<std::uint64_t, OpenTile>;
+
   bool may_begin() const;
-  void begin_tile(std::unique_lock<std::mutex>& lock);
-  Slice cut();
+  std::uint64_t begin_tile(std::unique_lock<std::mutex>& lock);
+  Slice cut(OpenTiles::iterator from);
   void store_in_order(std::unique_lock<std::mutex>& lock);
 
   const std::vector<Measure> measures_;
@@ -87,15 +92,14 @@ class TileQueue {
   const SettingsOf settings_of_;
   const Prepare prepare_;
 
-  std::mutex making_;  ///< settings are being made; taken before the other, never after
   mutable std::mutex mutex_;
-  std::condition_variable changed_;         ///< a tile was opened or stored, or the end is near
-  std::map<std::uint64_t, OpenTile> open_;  ///< more than one where threads begin tiles at the same time
-  std::uint64_t begun_ = 0;                 ///< tiles begun
-  std::uint64_t coming_ = 0;                ///< tiles begun, but not open yet
-  std::uint64_t stored_ = 0;                ///< tiles stored: all below this number
-  std::uint64_t measured_ = 0;              ///< settings
-  bool storing_ = false;                    ///< one thread is in a store step
+  std::condition_variable changed_;  ///< a tile was opened or stored, or the end is near
+  OpenTiles open_;
+  std::uint64_t begun_ = 0;     ///< tiles begun
+  std::uint64_t coming_ = 0;    ///< tiles begun, but not open yet
+  std::uint64_t stored_ = 0;    ///< tiles stored: all below this number
+  std::uint64_t measured_ = 0;  ///< settings
+  bool storing_ = false;        ///< one thread is in a store step
   bool closed_ = false;
   bool ending_ = false;  ///< no tile is begun any more
   std::map<std::uint64_t, std::shared_ptr<Tile>> waiting_;  ///< prepared, but an earlier tile is not stored

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -20,6 +22,36 @@ TEST(Axis, LinearValuesAreTheDecimalNumbersOfAPerson) {
 
   const Axis kappa = Axis::linear(kAny, 0.01, 1.6, 160);
   for (std::uint64_t i = 0; i < 160; ++i) EXPECT_EQ(kappa[i], (static_cast<double>(i) + 1) / 100) << i;
+}
+
+/// Read from text, digit by digit: whatever shortcut an axis takes gives the same double.
+double through_text(double from, double to, long double part, int decimals) {
+  const auto value = static_cast<double>(from * (1 - part) + to * part);
+  return std::strtod(fmt::format("{:.{}f}", value, decimals).c_str(), nullptr) + 0.0;
+}
+
+RC_GTEST_PROP(Axis, LinearValuesAreThoseThatTheirTextReadsAs, ()) {
+  const int exponent = *rc::gen::inRange(-9, 12);  // of the larger end
+  const int digits = *rc::gen::inRange(1, 16);
+  const auto largest = static_cast<std::int64_t>(std::pow(10, digits));
+  const auto whole = [&](std::int64_t least) { return static_cast<double>(*rc::gen::inRange(least, largest)); };
+  const double to = whole(largest / 10) / std::pow(10, digits - 1) * std::pow(10, exponent);
+  const double from = to * (whole(0) / static_cast<double>(largest) * 2 - 1);
+  RC_PRE(from < to);
+  const auto size = static_cast<std::uint64_t>(*rc::gen::inRange(3, 100'000));
+  RC_PRE(static_cast<double>(size) <= Axis::most_linear(from, to));
+  const Axis axis = Axis::linear(kAny, from, to, size);
+  const int decimals = 14 - static_cast<int>(std::floor(std::log10(to)));
+  RC_PRE(decimals >= 0);
+  for (std::uint64_t i = 1; i + 1 < size; i += 1 + size / 500)
+    RC_ASSERT(axis[i] == through_text(from, to, static_cast<long double>(i) / static_cast<long double>(size - 1), decimals));
+}
+
+TEST(Axis, ATieOfTheLastDigitIsRoundedAsItsTextIs) {
+  const double to = 1.0000000000001;  // four steps of two and a half units of the 15th digit
+  const Axis halves = Axis::linear(kAny, 1, to, 5);
+  for (std::uint64_t i = 1; i < 4; ++i)
+    EXPECT_EQ(halves[i], through_text(1, to, static_cast<long double>(i) / 4, 14)) << i;
 }
 
 TEST(Axis, LinearAxisThroughZeroHoldsATrueZero) {

@@ -142,9 +142,10 @@ class DamageOfChunks : public Damage {
   /// The chunk of Ms in the file.
   std::string stored(std::uint64_t tile) const {
     const EncodedTile encoded = encode_tile(grid_, TileRows(grid_), tile, sample::repeating_columns(grid_, tile));
-    EXPECT_EQ(encoded.measures[2].form(), tile == 3 ? ChunkForm::plain : ChunkForm::deflated) << tile;
-    return {reinterpret_cast<const char*>(encoded.measures[2].stored().data()),
-            encoded.measures[2].stored().size()};
+    const std::vector<ChunkRecord>& chunks = encoded.record.chunks;
+    EXPECT_EQ(chunks[2].form, tile == 3 ? ChunkForm::plain : ChunkForm::deflated) << tile;
+    return {reinterpret_cast<const char*>(encoded.chunks.bytes().data()) + chunks[0].length + chunks[1].length,
+            chunks[2].length};
   }
 
   Grid grid_;

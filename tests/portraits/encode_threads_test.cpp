@@ -30,7 +30,7 @@ class EncodeThreads : public ScratchTest {
     job.prepare = [&](std::uint64_t tile, const MeasureColumns&) -> StoreStep {
       const auto encoded =
           std::make_shared<EncodedTile>(writer.encode(tile, sample::repeating_columns(grid, tile)));
-      return [&writer, encoded] { writer.write(*encoded); };
+      return [&writer, encoded] { writer.write(std::move(*encoded)); };
     };
     job.threads = threads;
     EXPECT_TRUE(sweep(job).complete);

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -68,14 +70,31 @@ TEST(SweepThreads, AFailureEndsTheWorkOfTheOthers) {
   for (int i = 0; i < 20; ++i) many.insert(many.end(), grid.begin(), grid.end());
   Collected collected(every_measure());
   SweepJob job = job_over(many, 1, 2, collected);
-  std::uint64_t last_begun = 0;
+  std::atomic<std::uint64_t> begun = 0;
   job.settings_of = [&, made = job.settings_of](std::uint64_t tile) {
-    last_begun = tile;
+    ++begun;
     return made(tile);
   };
   store_with(job, [](std::uint64_t, const MeasureColumns&) { throw std::out_of_range("disk full"); });
   EXPECT_THROW(sweep(job), std::out_of_range);
-  EXPECT_LT(last_begun + 1, job.tile_count);
+  EXPECT_LT(begun.load(), job.tile_count);
+}
+
+TEST(SweepThreads, NoThreadWaitsForAnothersSettings) {
+  Collected collected(every_measure());
+  SweepJob job = job_over(small_grid(), 4, 2, collected);
+  std::atomic<int> inside = 0;
+  bool met = false;
+  job.settings_of = [&, made = job.settings_of](std::uint64_t tile) {
+    ++inside;
+    for (int i = 0; tile == 0 && i < 5000 && !met; ++i) {  // until the other thread is here too
+      met = inside.load() > 1;
+      if (!met) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return made(tile);
+  };
+  sweep(job);
+  EXPECT_TRUE(met);
 }
 
 TEST(SweepThreads, AFailureToPrepareStopsThemAll) {

@@ -22,7 +22,11 @@ constexpr std::size_t kSlice = TileQueue::kSliceSettings;
 
 std::vector<Slice> all_slices(TileQueue& queue) {
   std::vector<Slice> slices;
-  while (const auto slice = queue.next()) slices.push_back(*slice);
+  std::optional<std::uint64_t> own;
+  while (const auto slice = queue.next(own)) {
+    slices.push_back(*slice);
+    own = slice->tile->number;
+  }
   return slices;
 }
 
@@ -51,14 +55,27 @@ TEST(TileQueue, CutsTilesIntoSlicesInOrder) {
   EXPECT_FALSE(queue.next());
 }
 
+TEST(TileQueue, AThreadStaysOnItsTileAndHelpsInTheEnd) {
+  NumberedTiles tiles({2 * kSlice, 3 * kSlice, kSlice});
+  TileQueue queue = tiles.queue();
+  const auto tile_of = [](const std::optional<Slice>& slice) { return slice ? slice->tile->number : 99; };
+  EXPECT_EQ(tile_of(queue.next()), 0u);
+  EXPECT_EQ(tile_of(queue.next()), 1u) << "another thread begins another tile";
+  EXPECT_EQ(tile_of(queue.next(0)), 0u);
+  EXPECT_EQ(tile_of(queue.next(1)), 1u);
+  EXPECT_EQ(tile_of(queue.next(0)), 2u) << "its own is given out";
+  EXPECT_EQ(tile_of(queue.next(2)), 1u) << "none is left to begin";
+  EXPECT_FALSE(queue.next(1));
+}
+
 TEST(TileQueue, MakesATileWhenItsFirstSliceIsWanted) {
   NumberedTiles tiles({kSlice + 1, 1});
   TileQueue queue = tiles.queue();
   EXPECT_EQ(tiles.made, Numbers{});
   queue.next();
-  queue.next();
+  queue.next(0);
   EXPECT_EQ(tiles.made, Numbers{0});
-  queue.next();
+  queue.next(0);
   EXPECT_EQ(tiles.made, (Numbers{0, 1}));
 }
 
