@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "engine/base/words.h"
 #include "engine/loop/parameters.h"
@@ -72,6 +74,13 @@ std::string prefilter_text(const RealController& controller, const LoopFamily& f
   return {};
 }
 
+/// A terminal that is not told otherwise: https://no-color.org
+bool takes_colours(int file) {
+  const char *no_color = std::getenv("NO_COLOR"), *term = std::getenv("TERM");
+  return isatty(file) == 1 && (no_color == nullptr || *no_color == '\0') && term != nullptr &&
+         std::string_view(term) != "dumb";
+}
+
 }  // namespace
 
 Json json_number(double value) {
@@ -114,7 +123,10 @@ void print_json(const Json& json) { print_text(json.dump(2) + "\n"); }
 
 void print_text(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
-void print_message(const std::string& text) { std::fputs(fmt::format("portrait: {}\n", text).c_str(), stderr); }
+void print_message(const std::string& text) {
+  const bool bold = takes_colours(STDERR_FILENO);
+  std::fputs(fmt::format("{}portrait:{} {}\n", bold ? "\033[1m" : "", bold ? "\033[0m" : "", text).c_str(), stderr);
+}
 
 std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 

@@ -17,6 +17,7 @@
 #include "tools/pictures/loops.h"
 #include "tools/pictures/text.h"
 #include "tools/query_output.h"
+#include "tools/query_rules.h"
 
 namespace portrait::tools {
 namespace {
@@ -204,8 +205,7 @@ Horizon shown_horizon(const Loop& loop, const Horizon& horizon) {
   if (!horizon.automatic && horizon.dead_times <= kLongestShown) return horizon;
   SettingMeasured measured;
   if (!is_stable(open_loop(loop))) return Horizon::fixed(30);
-  measure_settings(Method::kernel, loop.family, Horizon::until_settled(), {}, {&loop.setting, 1},
-                   {&measured, 1});
+  measure_settings(Method::kernel, loop.family, Horizon::until_settled(), {}, {&loop.setting, 1}, {&measured, 1});
   return Horizon::fixed(std::min(measured.horizon, kLongestShown));
 }
 
@@ -316,6 +316,33 @@ Json PageAnswers::front(const Json& request) const {
   return {{"front", json_points(found.front)},
           {"admissible", json_points(thinned(found.points, true))},
           {"others", json_points(thinned(found.points, false))}};
+}
+
+Json PageAnswers::rules(const Json& request) const {
+  const Grid& grid = portrait_.grid();
+  const Conditions conditions = conditions_in(request, grid);
+  const QueryUnits& units = conditions.units;
+  const Question question{expression_in(request, "minimize", grid, units), conditions, 1, true};
+  const Answer answer = this->answer(question, request);
+  std::vector<RuleOnPortrait> rules;
+  try {
+    rules =
+        rules_on(grid, question, answer.top.empty() ? std::nullopt : std::optional(answer.top.front().objective));
+  } catch (const InputError& error) {  // no fault of the request: a portrait that rules say nothing of
+    return {{"rules", Json::array()}, {"why", error.what()}};
+  }
+  std::erase_if(rules, [&](const RuleOnPortrait& r) {
+    return !r.not_applicable.empty() || !has_what_is_fixed(grid, r.setting);
+  });
+  Json list = json_rules(grid, question, rules);
+  if (request.contains("x_expression") && request.contains("y_expression")) {
+    const Expression x = expression_in(request, "x_expression", grid, units);
+    const Expression y = expression_in(request, "y_expression", grid, units);
+    for (std::size_t k = 0; k < rules.size(); ++k)
+      list[k]["place"] = numbers({value_at(x, rules[k].setting, rules[k].measures, units),
+                                  value_at(y, rules[k].setting, rules[k].measures, units)});
+  }
+  return {{"rules", list}, {"why", nullptr}};
 }
 
 Json PageAnswers::quantiles(const Json& request) const {

@@ -39,6 +39,8 @@ class PageAnswers {
   Json simulate(const Json& request) const;
   /// The settings in the plane of two expressions, and the Pareto front.
   Json front(const Json& request) const;
+  /// Tuning rules under the question, with their regret; where the two expressions are given, their place in that plane.
+  Json rules(const Json& request) const;
   /// 101 quantiles, 0 to 100 %, of an expression over the settled settings; of a large portrait over a part of them.
   Json quantiles(const Json& request) const;
 

@@ -29,7 +29,7 @@ Two expressions against each other, both better when smaller: the settings, and 
 front of those that meet --where. --setting marks others, measured on the spot, and --rules the tuning
 rules, numbered, each with the factor by which its y is above the least of the front.)";
 
-constexpr std::size_t kColumns = 160, kRows = 120;
+constexpr std::size_t kColumns = 110, kRows = 80;
 
 /// The conditions alone: x stands in for what a question minimizes.
 Conditions conditions(const FrontArguments& a, const ShownPortrait& shown) {

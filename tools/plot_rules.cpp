@@ -1,6 +1,5 @@
 #include "tools/plot_rules.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,14 +14,6 @@ std::string rule_label(const RuleOnPortrait& r, const Question& question) {
   std::string label(r.rule->name);
   if (!std::isnan(r.regret)) label += fmt::format(", regret {:.3g}", r.regret);
   return r.admissible ? label : fmt::format("{}, {}", label, rule_remark(question, r));
-}
-
-/// A rule with derivative action has no place in a portrait of PI controllers.
-bool has_what_is_fixed(const Grid& grid, const Setting& setting) {
-  return std::all_of(grid.fixed.begin(), grid.fixed.end(), [&](const FixedParameter& f) {
-    const double value = get(setting, f.parameter);
-    return value == f.value || std::abs(value - f.value) <= 1e-9 * std::abs(f.value);
-  });
 }
 
 }  // namespace

@@ -147,8 +147,16 @@ RuleOnPortrait rule_on(const rules::Rule& rule, const Grid& grid, const Question
 
 }  // namespace
 
+bool has_what_is_fixed(const Grid& grid, const Setting& setting) {
+  return std::all_of(grid.fixed.begin(), grid.fixed.end(), [&](const FixedParameter& f) {
+    const double value = get(setting, f.parameter);
+    return value == f.value || std::abs(value - f.value) <= 1e-9 * std::abs(f.value);
+  });
+}
+
 std::string rule_remark(const Question& question, const RuleOnPortrait& r) {
   if (r.admissible) return "admissible";
+  if (r.status == Status::settled && r.violated.empty()) return "without value";
   if (r.status != Status::settled && r.violated.empty()) return std::string(to_string(r.status));
   if (r.status == Status::unstable || r.violated.empty()) return std::string(to_string(r.status));
   return "violates " + question.conditions.where[r.violated[0]].text() +

@@ -31,6 +31,10 @@ struct RuleOnPortrait {
 /// Throws InputError when the portrait's plant is not known: tau_1 is an axis and no plant was given.
 std::vector<RuleOnPortrait> rules_on(const Grid& grid, const Question& question, std::optional<double> optimum);
 
+/// Whether the setting has the values that all settings of the grid have: a rule with derivative action has no place in a
+/// portrait of PI controllers.
+bool has_what_is_fixed(const Grid& grid, const Setting& setting);
+
 /// "admissible", or why not.
 std::string rule_remark(const Question& question, const RuleOnPortrait& r);
 

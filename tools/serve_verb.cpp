@@ -96,6 +96,7 @@ void add_answers(page::LoopbackServer& server, const PageAnswers& answers) {
   add_json(server, "/api/setting", [&](const Json& request) { return answers.setting(request); });
   add_json(server, "/api/simulate", [&](const Json& request) { return answers.simulate(request); });
   add_json(server, "/api/front", [&](const Json& request) { return answers.front(request); });
+  add_json(server, "/api/rules", [&](const Json& request) { return answers.rules(request); });
   add_json(server, "/api/quantiles", [&](const Json& request) { return answers.quantiles(request); });
   server.answer("/api/view", [&](const httplib::Request& request, httplib::Response& response) {
     guarded(response, [&] { response.set_content(answers.view(request_in(request)), "application/octet-stream"); });

@@ -105,7 +105,9 @@ class Hostile(ProgramTest):
                 ("/api/view", {**VIEW, "plant": []}, "plant"), ("/api/setting", {}, "number"),
                 ("/api/setting", {"number": 27}, "number"), ("/api/setting", {"number": 1e300}, "number"),
                 ("/api/setting", {"number": 0, "expressions": [1]}, "expressions"),
-                ("/api/simulate", {"number": -1}, "number"), ("/api/front", {"x_expression": "Ms"}, "y_expression")):
+                ("/api/simulate", {"number": -1}, "number"), ("/api/front", {"x_expression": "Ms"}, "y_expression"),
+                ("/api/rules", {}, "minimize"), ("/api/rules", {"minimize": "Ms", "x_expression": 1, "y_expression": "Ms"}, "x_expression"),
+                ("/api/rules", {"minimize": "Ms", "where": ["Ms <="]}, "constraint 1:1:")):
             status, body = self.server.post(path, request)
             self.assertEqual(status, 400, (path, request, body))
             self.assertIn(message, json.loads(body)["error"])

@@ -1,5 +1,7 @@
 """portrait completion and man, in the shells and the formatter that they are for."""
 
+import os
+import pty
 import shutil
 import subprocess
 import unittest
@@ -43,6 +45,42 @@ class Shell(ProgramTest):
             self.assertIn(line, plain)
         self.assertIn("--minimize", plain)
         self.assertIn(".B plot\n", self.run_program("man").out)
+
+    def on_a_terminal(self, **environment):
+        """What `portrait nonsense` says there."""
+        ours, theirs = pty.openpty()
+        env = {k: v for k, v in os.environ.items() if k != "NO_COLOR"} | {"TERM": "xterm"} | environment
+        subprocess.run([program.PROGRAM, "nonsense"], stderr=theirs, env=env)
+        os.close(theirs)
+        text = b""
+        try:
+            while part := os.read(ours, 4096):
+                text += part
+        except OSError:
+            pass  # all was read
+        os.close(ours)
+        return text
+
+    def test_colours_only_on_a_terminal_that_wants_them(self):
+        self.assertTrue(self.on_a_terminal().startswith(b"\x1b[1mportrait:\x1b[0m unknown verb"))
+        for environment in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
+            self.assertTrue(self.on_a_terminal(**environment).startswith(b"portrait: unknown verb"), environment)
+        self.assertTrue(self.on_a_terminal(NO_COLOR="").startswith(b"\x1b[1m"))
+        self.assertTrue(self.run_program("nonsense").err.startswith("portrait: unknown verb"))
+
+    @unittest.skipUnless(shutil.which("cmake"), "cmake is not there")
+    def test_a_page_that_cannot_be_built_says_why(self):
+        for npm, why in (("NPM-NOTFOUND", "npm was not found when it was built (Debian: apt-get install npm)"),
+                         (shutil.which("false"), "npm could not fetch its packages when it was built")):
+            built = self.folder / "built"
+            built.mkdir(exist_ok=True)
+            done = subprocess.run(["cmake", f"-DNPM={npm}", f"-DSOURCE={program.SOURCES / 'web'}", f"-DBUILT={built}",
+                                   f"-DASSETS={built / 'assets.cpp'}", "-P", program.SOURCES / "cmake" / "build_page.cmake"],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            source = (built / "assets.cpp").read_text()
+            self.assertIn(f'why_no_assets() {{ return R"why({why}', source)
+            self.assertIn("static const std::vector<Asset> none;", source)
 
     def test_unknown_shell(self):
         self.assertEqual(self.run_program("completion", "fish").code, 2)

@@ -135,6 +135,27 @@ step("the trade-off and the map show the same setting", async () => {
   assert.ok((await page.locator("#front .marked").count()) >= 1);
 });
 
+step("tuning rules are points with their regret, as query says", async () => {
+  await told(page, () => page.locator("#go-optimum").click());
+  await page.waitForTimeout(500);
+  const where = await page.evaluate(() => [...document.querySelectorAll(".typed")].map((i) => i.value));
+  const rules = query("--minimize", "IAE_w + IAE_d", ...where.flatMap((w) => ["--where", w]), "--plant", "K=2,Td=0.5", "--rules").rules.filter((r) => r.applicable);
+  assert.ok(rules.length > 4);
+  const rows = await page.evaluate(() => [...document.querySelectorAll("#rules tbody tr")].map((r) => [...r.cells].map((c) => c.textContent)));
+  assert.deepEqual(rows.map((r) => r[1]), rules.map((r) => r.rule));
+  rules.forEach((r, k) => { if (r.regret !== null) near(Number(rows[k][2]), r.regret, 1e-3 * r.regret, r.rule); assert.equal(rows[k][3] === "admissible", r.admissible); });
+  const inside = rules.filter((r) => r.settings.kappa >= 0.045 && r.settings.kappa <= 0.355 && r.settings.delta >= 0.325 && r.settings.delta <= 1.075);
+  assert.equal(await page.locator("#map .rule").count(), inside.length);
+  // Their texts lie apart.
+  const boxes = await page.evaluate(() => [...document.querySelectorAll("#map g text")].filter((t) => t.textContent).map((t) => t.getBoundingClientRect().toJSON()));
+  boxes.forEach((a, k) => boxes.slice(0, k).forEach((b) => assert.ok(Math.abs(a.x - b.x) > 4 || Math.abs(a.y - b.y) > 8)));
+  await told(page, () => page.locator("#show-rules").uncheck());
+  await page.waitForFunction(() => !document.querySelector("#map .rule") && !document.querySelector("#rules table"));
+  assert.match(new URL(page.url()).hash, /rules=0/);
+  await told(page, () => page.locator("#show-rules").check());
+  await page.waitForFunction(() => document.querySelector("#map .rule"));
+});
+
 step("an uncertain plant is a box on the map", async () => {
   assert.equal(await page.locator("#map .box").count(), 0);
   await told(page, () => page.locator("#go-optimum").click());

@@ -13,7 +13,7 @@ namespace portrait::pictures {
 namespace {
 
 constexpr Size kSize{19, 11};
-constexpr Point kPanel{80, 22};  // in characters, about
+constexpr Point kPanel{72, 16};  // in characters, about
 
 /// What is reachable: between two points of the front one has to take the worse x for the better y.
 Outline staircase(const Outline& front) {
@@ -73,7 +73,7 @@ Span span_of(const Front& front, double Point::*coordinate, bool log) {
   if (!(span.low <= span.high)) return {0, 1, false};
   if (log) return {span.low / 1.08, span.high * 1.08, true};
   const double room = span.high > span.low ? 0.05 * (span.high - span.low) : 0.5;
-  return {span.low - room, span.high + room, false};
+  return {span.low - (front.rules.empty() ? 1 : 2.5) * room, span.high + room, false};  // room for numbers below
 }
 
 std::vector<std::string> titles_of(const Front& front) {

@@ -9,7 +9,7 @@ namespace portrait::pictures {
 namespace {
 
 // Of the pictures' font, about: of a key that is wider than the picture gnuplot leaves out what does not fit. A row of the key is a little higher than one of text.
-constexpr double kCharacter_cm = 0.212, kRow_cm = 0.43, kRow = 1.25, kSampleWidth = 7, kMostColumns = 3;
+constexpr double kCharacter_cm = 0.212, kRow_cm = 0.43, kRow = 1.25, kSampleWidth = 8, kMostColumns = 3;
 constexpr double kBelowAxis = 3.8;  // characters for tics and the name of the axis
 
 }  // namespace

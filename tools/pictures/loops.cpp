@@ -11,12 +11,14 @@
 #include "engine/loop/sensitivity.h"
 #include "engine/loop/stability.h"
 #include "engine/reference/response.h"
+#include "tools/pictures/simplify.h"
 
 namespace portrait::pictures {
 namespace {
 
 constexpr Size kResponsesSize{20, 14}, kNyquistSize{14, 14};
 constexpr std::size_t kPoints = 4000;
+constexpr double kInvisible = 1e-4;  // of a panel
 
 /// Factors from normalised t, y and u to real ones, after each step (engine/loop/real_plant.h).
 struct Scale {
@@ -47,7 +49,7 @@ Sampled sampled(const reference::StepResponse& response, double horizon, std::si
 Outline curve(const Sampled& samples, const std::vector<double>& values, double t, double factor) {
   Outline points;
   for (std::size_t i = 0; i < values.size(); ++i) points.push_back({samples.t[i] * t, values[i] * factor});
-  return points;
+  return simplified(points, kInvisible);
 }
 
 Outline circle(Point centre, double radius) {
@@ -164,9 +166,9 @@ Script nyquist(const std::string& title, const std::vector<NamedLoop>& loops, do
     const double own = stable ? sensitivity_peak(open).value : 0;
     const std::string label =
         stable ? fmt::format("{}, Ms = {:.4g}", loops[k].label, own) : loops[k].label + ", unstable";
-    plots +=
-        fmt::format(", {} using 1:2 with lines {} title {}",
-                    script.data({nyquist_curve(loops[k].loop, 8, 0.02, kPoints)}), curve_style(k), quoted(label));
+    plots += fmt::format(", {} using 1:2 with lines {} title {}",
+                         script.data({simplified(nyquist_curve(loops[k].loop, 8, 0.02, kPoints), kInvisible)}),
+                         curve_style(k), quoted(label));
     if (Ms <= 1 && stable && std::isfinite(own))
       plots += fmt::format(", {} using 1:2 with lines lw 0.8 lc rgb '{}' dt 3 notitle",
                            script.data({circle({-1, 0}, 1 / own)}), curve_colour(k));
@@ -181,7 +183,7 @@ Script bars(const std::string& title, const std::vector<std::string>& loops, con
   Script script({columns == 1 ? 12.0 : 20.0, 1.5 + 6.5 * rows});
   script.line(fmt::format("set multiplot layout {},{} title {}", rows, columns, quoted(title)));
   script.line(
-      "set style fill pattern border\nset boxwidth 0.7\nset tmargin 2.5\nunset key\nset xtics rotate by -25 "
+      "set style fill pattern border\nset boxwidth 0.7\nset tmargin 2.5\nunset key\nset xtics rotate by -40 "
       "noenhanced");
   script.line(fmt::format("set xrange [-0.6:{}]\nset yrange [0:*]", static_cast<double>(loops.size()) - 0.4));
   std::string tics;

@@ -13,7 +13,7 @@ namespace portrait::pictures {
 namespace {
 
 constexpr Size kSize{17, 11.7};
-constexpr Point kPanel{60, 19};  // in characters, about
+constexpr Point kPanel{62, 20};  // in characters, about
 constexpr const char *kStabilityTitle = "limit of stability", *kRegionTitle = "admissible region",
                      *kSettingsTitle = "admissible settings", *kPatchTitle = "the optimum, plant uncertain";
 constexpr double kShareInRange = 0.95;

@@ -6,11 +6,13 @@
 
 #include "engine/loop/stability.h"
 #include "tools/pictures/key.h"
+#include "tools/pictures/simplify.h"
 
 namespace portrait::pictures {
 namespace {
 
 constexpr int kHalvings = 20;
+constexpr double kInvisible = 1e-4;  // of the picture
 constexpr Size kSize{16, 11};
 
 double state(const Loop& loop) {
@@ -67,7 +69,8 @@ Script script(const StabilityPicture& picture, const Plane& plane, const Field& 
         ", {} using 1:2 with filledcurves closed fc rgb '#cfe8f6' fs solid 1 border lc rgb '#cfe8f6' "
         "title 'stable'",
         script.data(area));
-  const auto limit = stability_limit(plane, field);
+  std::vector<Outline> limit;
+  for (const Outline& line : stability_limit(plane, field)) limit.push_back(simplified(line, kInvisible));
   if (!limit.empty())
     plots += fmt::format(", {} using 1:2 with lines lw 2 lc rgb '#0072b2' title 'limit of stability'",
                          script.data(limit));

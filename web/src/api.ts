@@ -1,4 +1,4 @@
-import type { Front, Found, Info, Simulated, View, ViewHead } from "./types";
+import type { Front, Found, Info, Rules, Simulated, View, ViewHead } from "./types";
 
 async function post(path: string, body: unknown): Promise<Response> {
   const response = await fetch(path, {
@@ -15,6 +15,7 @@ export const info = async (): Promise<Info> => (await post("/api/info", {})).jso
 export const setting = async (body: object): Promise<Found> => (await post("/api/setting", body)).json();
 export const simulate = async (body: object): Promise<Simulated> => (await post("/api/simulate", body)).json();
 export const front = async (body: object): Promise<Front> => (await post("/api/front", body)).json();
+export const rules = async (body: object): Promise<Rules> => (await post("/api/rules", body)).json();
 export const quantiles = async (body: object): Promise<{ quantiles: number[] }> => (await post("/api/quantiles", body)).json();
 
 /** tools/page_answers.h says how the bytes lie. */

@@ -3,6 +3,8 @@ import { logTicks, niceTicks, tickText } from "./scales";
 import { svg } from "./svg";
 import type { Front } from "./types";
 
+export interface FrontMark { x: number; y: number; colour: string; star: boolean; rule?: string }
+
 export class FrontView {
   private data: Front | null = null;
   private chosen = -1;
@@ -22,8 +24,8 @@ export class FrontView {
     this.draw();
   }
   private labels: [string, string] = ["", ""];
-  private others: { x: number; y: number; colour: string; star: boolean }[] = [];
-  setMarks(marks: { x: number; y: number; colour: string; star: boolean }[]): void { this.others = marks; this.draw(); }
+  private others: FrontMark[] = [];
+  setMarks(marks: FrontMark[]): void { this.others = marks; this.draw(); }
 
   private span(of: "x" | "y"): { low: number; high: number; log: boolean } {
     const f = this.data!.front[of], a = this.data!.admissible[of], all = f.length ? [...f, ...a] : [...this.data!.others[of]];
@@ -57,7 +59,10 @@ export class FrontView {
     data.front.x.forEach((x, i) => { const px = X(x).toFixed(1), py = Y(data.front.y[i]).toFixed(1); steps += i ? `H${px}V${py}` : `M${px},${py}`; });
     root.append(svg("path", { d: steps, fill: "none", stroke: "#111", "stroke-width": 1.5, class: "front-line" }));
     data.front.x.forEach((x, i) => root.append(svg("circle", { cx: X(x), cy: Y(data.front.y[i]), r: i === this.chosen ? 4.5 : 2.2, fill: i === this.chosen ? "#d00000" : "#111" })));
-    for (const m of this.others) if (inside(X(m.x), Y(m.y))) root.append(svg("circle", { cx: X(m.x), cy: Y(m.y), r: 5, fill: "none", stroke: m.star ? "#d00000" : m.colour, "stroke-width": 2.2, class: "marked" }));
+    for (const m of this.others) if (m.rule && inside(X(m.x), Y(m.y))) root.append(
+      svg("rect", { x: X(m.x) - 3, y: Y(m.y) - 3, width: 6, height: 6, fill: "#fff", stroke: "#000", "stroke-width": 1.4, class: "rule" }),
+      svg("text", { x: X(m.x) + 5, y: Y(m.y) - 4, "paint-order": "stroke", stroke: "#fff", "stroke-width": 3 }, m.rule));
+    for (const m of this.others) if (!m.rule && inside(X(m.x), Y(m.y))) root.append(svg("circle", { cx: X(m.x), cy: Y(m.y), r: 5, fill: "none", stroke: m.star ? "#d00000" : m.colour, "stroke-width": 2.2, class: "marked" }));
     root.append(svg("path", { d: `M${left},${top}V${h - bottom}H${w - right}`, fill: "none", stroke: "#333" }));
     this.host.replaceChildren(root);
   }

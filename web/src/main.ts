@@ -7,7 +7,7 @@ import { HeatMap, stateText, type MapMark } from "./map";
 import { commands, mapCsv, picture, responsesCsv, save } from "./save";
 import { fromHash, mostPins, plant, toHash, type State } from "./state";
 import { byId, html, svg } from "./svg";
-import { real, short, type Found, type Info, type Num, type Simulated, type View } from "./types";
+import { real, short, type Found, type Info, type Num, type Rule, type Simulated, type View } from "./types";
 import { axisLabel, box, factor } from "./units";
 
 interface Series { label: string; colour: string; dash: string; data: Simulated; star: boolean }
@@ -17,6 +17,7 @@ class Page {
   private view: View | null = null;
   private simulated = new Map<number, Simulated>();
   private chosen: number | null = null;
+  private rules: Rule[] = [];
   private map = new HeatMap(byId("map"));
   private frontView = new FrontView(byId("front"));
   private constraints = new Constraints(byId("constraints"), (expression) => this.quantiles(expression));
@@ -51,6 +52,7 @@ class Page {
     this.text("box-K", "boxK"); this.text("box-Td", "boxTd");
     this.text("front-x", "frontX"); this.text("front-y", "frontY");
     this.flag("log-x", "logX"); this.flag("log-y", "logY"); this.flag("log-colour", "logColour");
+    this.flag("show-rules", "rules");
     this.flag("include-not-settled", "includeNotSettled");
     this.axis("x"); this.axis("y");
     this.constraints.onChange = () => this.changed();
@@ -83,7 +85,7 @@ class Page {
     });
   }
 
-  private flag(id: string, key: "logX" | "logY" | "logColour" | "includeNotSettled"): void {
+  private flag(id: string, key: "logX" | "logY" | "logColour" | "includeNotSettled" | "rules"): void {
     byId<HTMLInputElement>(id).addEventListener("change", (e) => { this.state[key] = (e.target as HTMLInputElement).checked; this.changed(); });
   }
 
@@ -103,7 +105,7 @@ class Page {
     const set = (id: string, value: string) => { byId<HTMLInputElement>(id).value = value; };
     set("minimize", s.minimize); set("colour", s.colour); set("plant-K", s.K); set("plant-Td", s.Td); set("plant-T1", s.T1);
     set("box-K", s.boxK); set("box-Td", s.boxTd); set("front-x", s.frontX); set("front-y", s.frontY); set("x", s.x); set("y", s.y);
-    for (const [id, on] of [["log-x", s.logX], ["log-y", s.logY], ["log-colour", s.logColour], ["include-not-settled", s.includeNotSettled]] as const) byId<HTMLInputElement>(id).checked = on;
+    for (const [id, on] of [["log-x", s.logX], ["log-y", s.logY], ["log-colour", s.logColour], ["include-not-settled", s.includeNotSettled], ["show-rules", s.rules]] as const) byId<HTMLInputElement>(id).checked = on;
     this.showConstraints();
     this.showHeld();
   }
@@ -166,7 +168,7 @@ class Page {
       this.answer(view);
       void this.follow();
       clearTimeout(this.frontTimer);
-      this.frontTimer = window.setTimeout(() => this.refreshFront(), 120);
+      this.frontTimer = window.setTimeout(() => { this.refreshFront(); this.refreshRules(); }, 120);
     } catch (error) {
       byId("error").textContent = (error as Error).message;
     }
@@ -181,13 +183,26 @@ class Page {
     } catch (error) { byId("error").textContent = (error as Error).message; }
   });
 
+  private refreshRules = api.latest(async () => {
+    const s = this.state, place = s.frontX.trim() && s.frontY.trim() ? { x_expression: s.frontX, y_expression: s.frontY } : {};
+    let why: string | null = null;
+    try {
+      if (s.rules) ({ rules: this.rules, why } = await api.rules({ ...this.question(), ...place }));
+      else this.rules = [];
+    } catch (error) { byId("error").textContent = (error as Error).message; return; }
+    this.showRules(why);
+    this.marks();
+    await this.markFront();
+  });
+
   private async markFront(): Promise<void> {
     const s = this.state, expressions = [s.frontX, s.frontY];
     const marks = await Promise.all(this.series().map(async (c) => {
       const at = await api.setting({ number: c.data.number, plant: plant(s), expressions }) as Found & { values: Num[] };
       return { x: real(at.values[0]), y: real(at.values[1]), colour: c.colour, star: c.star };
     }));
-    this.frontView.setMarks(marks);
+    const rules = this.rules.map((r, k) => ({ x: real(r.place?.[0]), y: real(r.place?.[1]), colour: "", star: false, rule: String(k + 1) }));
+    this.frontView.setMarks([...rules, ...marks]);
   }
 
   private async simulate(number: number): Promise<Simulated> {
@@ -278,7 +293,8 @@ class Page {
   }
 
   private mapMarks(): MapMark[] {
-    const s = this.state, marks: MapMark[] = [];
+    const s = this.state;
+    const marks: MapMark[] = this.rules.map((r, k) => ({ x: real(r.settings[s.x]), y: real(r.settings[s.y]), text: String(k + 1), colour: "", star: false, rule: true }));
     for (const c of this.series()) if (!c.star && this.inPlane(c.data)) marks.push({ x: real(c.data.settings[s.x]), y: real(c.data.settings[s.y]), text: c.label.replace("pin ", ""), colour: c.colour, star: false });
     const best = this.view?.optimum;
     if (best && this.inPlane(best)) marks.push({ x: real(best.settings[s.x]), y: real(best.settings[s.y]), text: "", colour: "", star: true });
@@ -356,6 +372,15 @@ class Page {
       }
       return item;
     }));
+  }
+
+  private showRules(why: string | null): void {
+    if (!this.rules.length) { byId("rules").replaceChildren(...(why ? [html("p", { class: "hint" }, why)] : [])); return; }
+    const remark = (r: Rule) => r.admissible ? "admissible" : r.violated.length ? `violates ${r.violated.join(", ")}` : r.status;
+    const names = this.info.axes.map((a) => a.name);
+    const head = html("tr", {}, ...["", "rule", "regret", "", ...names].map((t) => html(t ? "th" : "td", t ? { scope: "col" } : {}, t)));
+    const body = this.rules.map((r, k) => html("tr", {}, html("td", {}, String(k + 1)), html("th", { scope: "row" }, r.rule), html("td", {}, short(r.regret, 4)), html("td", {}, remark(r)), ...names.map((n) => html("td", {}, short(r.settings[n], 4)))));
+    byId("rules").replaceChildren(html("p", { class: "hint" }, "Tuning rules, seen along the sliders' axes; regret: what is minimized, over the optimum."), html("table", {}, html("thead", {}, head), html("tbody", {}, ...body)));
   }
 
   private table(): void {

@@ -8,7 +8,7 @@ export interface MapInput {
   view: View; x: Num[]; y: Num[]; logX: boolean; logY: boolean; logColour: boolean; factorX: number; factorY: number;
   labelX: string; labelY: string; labelColour: string; marks: MapMark[]; box: [number, number][] | null;
 }
-export interface MapMark { x: number; y: number; text: string; colour: string; star: boolean }
+export interface MapMark { x: number; y: number; text: string; colour: string; star: boolean; rule?: boolean }
 
 const margin = { left: 58, right: 78, top: 8, bottom: 40 };
 
@@ -161,7 +161,13 @@ export class HeatMap {
     parts.push(svg("rect", { x: a.left, y: a.top, width: a.width, height: a.height, fill: "none", stroke: "#333" }));
     this.colourBar(parts, a);
     if (input.box) parts.push(svg("path", { d: "M" + input.box.map(([x, y]) => `${X(this.sx!.place(x)).toFixed(1)},${Y(this.sy!.place(y)).toFixed(1)}`).join("L") + "Z", fill: "none", stroke: "#a40000", "stroke-width": 1.6, "stroke-dasharray": "5 3", class: "box" }));
-    for (const m of input.marks) this.mark(parts, m, X(this.sx.place(m.x)), Y(this.sy.place(m.y)));
+    this.texts = [];
+    this.above = [];
+    for (const m of input.marks) {
+      const u = this.sx.place(m.x), v = this.sy.place(m.y);
+      if (u >= 0 && u <= 1 && v >= 0 && v <= 1) this.mark(parts, m, X(u), Y(v));
+    }
+    parts.push(...this.above);  // no mark hides the text of another
     if (this.shown || document.activeElement === this.host) {
       const [i, j] = this.cursor;
       const x0 = X(this.sx.edges[i]), x1 = X(this.sx.edges[i + 1]), y0 = Y(this.sy.edges[j + 1]), y1 = Y(this.sy.edges[j]);
@@ -171,11 +177,25 @@ export class HeatMap {
     this.over.replaceChildren(...parts);
   }
 
+  private texts: [number, number][] = [];
+  private above: SVGElement[] = [];
+
+  /** Where a text of a mark lies on none of the others: up at the right, or else around. */
+  private free(x: number, y: number, text: string): { x: number; y: number } {
+    const wide = 7 * text.length, around = [[9, -5], [9, 13], [-9 - wide, -5], [-9 - wide, 13], [-wide / 2, -10], [-wide / 2, 19], [18, 4], [-18 - wide, 4]];
+    const [dx, dy] = around.find(([a, b]) => this.texts.every(([p, q]) => Math.abs(p - x - a) > wide + 2 || Math.abs(q - y - b) > 11)) ?? around[0];
+    this.texts.push([x + dx, y + dy]);
+    return { x: dx, y: dy };
+  }
+
   private mark(parts: SVGElement[], m: MapMark, x: number, y: number): void {
     const star = "M0,-9L2.2,-3L8.6,-2.8L3.5,1.1L5.3,7.3L0,3.6L-5.3,7.3L-3.5,1.1L-8.6,-2.8L-2.2,-3Z";
     const shape = m.star ? svg("path", { d: star, fill: "#d00000", stroke: "#fff", "stroke-width": 1.4, class: "star" })
+      : m.rule ? svg("rect", { x: -4, y: -4, width: 8, height: 8, fill: "#fff", stroke: "#000", "stroke-width": 1.8, class: "rule" })
       : svg("circle", { r: 5.5, fill: m.colour, stroke: "#fff", "stroke-width": 1.6, class: "pin" });
-    parts.push(svg("g", { transform: `translate(${x.toFixed(1)},${y.toFixed(1)})` }, shape, svg("text", { x: 9, y: -5, "paint-order": "stroke", stroke: "#fff", "stroke-width": 3 }, m.text)));
+    const at = { transform: `translate(${x.toFixed(1)},${y.toFixed(1)})` };
+    parts.push(svg("g", at, shape));
+    if (m.text) this.above.push(svg("g", at, svg("text", { ...this.free(x, y, m.text), "paint-order": "stroke", stroke: "#fff", "stroke-width": 3 }, m.text)));
   }
 
   private colourBar(parts: SVGElement[], a: { left: number; top: number; width: number; height: number }): void {

@@ -4,7 +4,7 @@ import type { Info } from "./types";
 export interface State {
   x: string; y: string; held: number[]; colour: string; minimize: string; where: string[];
   includeNotSettled: boolean; K: string; Td: string; T1: string; boxK: string; boxTd: string;
-  logX: boolean; logY: boolean; logColour: boolean; frontX: string; frontY: string; pins: number[];
+  logX: boolean; logY: boolean; logColour: boolean; frontX: string; frontY: string; pins: number[]; rules: boolean;
 }
 
 export const mostPins = 6;
@@ -22,7 +22,7 @@ export function usual(info: Info): State {
     x: axes[0].name, y: axes[1].name, held: info.axes.map((a) => Math.floor(a.values.length / 2)), colour: "",
     minimize: speed, where: has(info, "Ms") ? ["Ms <= 2"] : [], includeNotSettled: false, K: "", Td: "", T1: "",
     boxK: "", boxTd: "", logX: false, logY: false, logColour: true, frontX: has(info, "Ms") ? "Ms" : first,
-    frontY: speed, pins: [],
+    frontY: speed, pins: [], rules: true,
   };
 }
 
@@ -35,6 +35,7 @@ export function toHash(s: State): string {
     if (value) p.set(key, value);
   p.set("log", `${s.logX ? "x" : ""}${s.logY ? "y" : ""}${s.logColour ? "c" : ""}`);
   if (s.includeNotSettled) p.set("all", "1");
+  if (!s.rules) p.set("rules", "0");
   p.set("fx", s.frontX); p.set("fy", s.frontY);
   if (s.pins.length) p.set("pins", s.pins.join("."));
   return "#" + p.toString();
@@ -60,6 +61,7 @@ export function fromHash(hash: string, info: Info): State {
   const log = p.get("log") ?? "";
   s.logX = log.includes("x"); s.logY = log.includes("y"); s.logColour = log.includes("c");
   s.includeNotSettled = p.get("all") === "1";
+  s.rules = p.get("rules") !== "0";
   s.frontX = p.get("fx") ?? s.frontX; s.frontY = p.get("fy") ?? s.frontY;
   s.pins = whole(p.get("pins") ?? "").filter((n) => n < info.settings).slice(0, mostPins);
   return s;

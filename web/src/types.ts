@@ -25,6 +25,12 @@ export interface Simulated extends Found {
 export interface Points { x: number[]; y: number[]; number: number[] }
 export interface Front { front: Points; admissible: Points; others: Points }
 
+export interface Rule {
+  rule: string; settings: Record<string, Num>; status: string; objective: Num; admissible: boolean; violated: string[];
+  regret: Num; place?: [Num, Num];
+}
+export interface Rules { rules: Rule[]; why: string | null }
+
 export const UNSTABLE = 3, NOT_SETTLED = 2, ADMISSIBLE = 8;
 
 export function real(value: Num | undefined): number {
