@@ -16,12 +16,18 @@ namespace {
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }
 
+/// "K", "Td", and what the family calls the time constant of its lags: T1, or Tj of jotd.
+std::string_view name_in(const PlantBox& box, std::size_t which) {
+  const std::string_view name = name_of_uncertain(which);
+  return name == "T1" ? lag_name(box.nominal.family) : name;
+}
+
 /// "K=1.2 Td=0.8": what varies.
 std::string plant_words(const PlantBox& box, const RealPlant& plant) {
   const double values[] = {plant.K, plant.Td, plant.T1};
   std::string text;
   for (const std::size_t k : box.uncertain())
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name_of_uncertain(k), short_number(values[k]));
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name_in(box, k), short_number(values[k]));
   return text.empty() ? "the plant" : text;
 }
 
@@ -29,7 +35,7 @@ std::string box_words(const PlantBox& box) {
   const Range ranges[] = {box.K, box.Td, box.T1};
   std::string text;
   for (const std::size_t k : box.uncertain())
-    text += fmt::format("{}{} in {}..{}", text.empty() ? "" : ", ", name_of_uncertain(k),
+    text += fmt::format("{}{} in {}..{}", text.empty() ? "" : ", ", name_in(box, k),
                         number_text(ranges[k].low), number_text(ranges[k].high));
   return text.empty() ? "one plant" : text;
 }
@@ -79,7 +85,7 @@ Json json_box(const PlantBox& box) {
   const Range ranges[] = {box.K, box.Td, box.T1};
   Json json = Json::object();
   for (const std::size_t k : box.uncertain())
-    json[std::string(name_of_uncertain(k))] = {{"from", ranges[k].low}, {"to", ranges[k].high}};
+    json[std::string(name_in(box, k))] = {{"from", ranges[k].low}, {"to", ranges[k].high}};
   return json;
 }
 

@@ -91,7 +91,7 @@ std::optional<std::string> why_invalid(const PlantBox& box) {
   const RealPlant& n = box.nominal;
   if (auto why = why_range_invalid("K", box.K, n.K)) return why;
   if (auto why = why_range_invalid("Td", box.Td, n.Td)) return why;
-  if (auto why = why_range_invalid("T1", box.T1, n.T1)) return why;
+  if (auto why = why_range_invalid(lag_name(n.family), box.T1, n.T1)) return why;
   if (box.K.low <= 0 && box.K.high >= 0)
     return fmt::format("K={}..{} holds 0: no controller serves a gain that may vanish or change its sign",
                        number_text(box.K.low), number_text(box.K.high));
