@@ -14,6 +14,7 @@
 #include "tools/arguments.h"
 #include "tools/exit_codes.h"
 #include "tools/query_output.h"
+#include "tools/query_rules.h"
 
 namespace portrait::tools {
 namespace {
@@ -262,21 +263,59 @@ std::vector<AlongPoint> points_along(const QueryRequest& request, const Question
   return points;
 }
 
-/// How much more than the best under its own bound a setting costs.
-void add_regret(const QueryRequest& request, const Question& question, const Along& along, bool refined,
-                const std::string& setting, Json& json, std::string& table) {
-  const Verdict verdict = judge(request.grid(), request.conditions, setting_from(request, setting));
-  const double reached = value_at(along.expression, verdict.measured);
-  const double objective = value_at(question.minimize, verdict.measured);
+/// What a controller costs more than the best under its own bound.
+struct Regret {
+  double reached, objective, best;
+  double part() const { return objective / best - 1; }
+};
+
+Regret regret_of(const QueryRequest& request, const Question& question, const Along& along, bool refined,
+                 const Measured& measured) {
+  const double reached = value_at(along.expression, measured);
   const auto points = points_along(request, question, {along.expression, {reached}}, refined);
-  const double best = points.empty() ? kNaN : points.front().objective, regret = objective / best - 1;
-  json["regret"] = {{"reached", json_number(reached)},
-                    {"objective", json_number(objective)},
-                    {"best", json_number(best)},
-                    {"regret", json_number(regret)}};
-  table +=
-      fmt::format("{}: {} at {} = {}; the best there is {}: regret {:.3g} %\n", setting, short_number(objective),
-                  along.expression.text(), short_number(reached), short_number(best), 100 * regret);
+  return {reached, value_at(question.minimize, measured), points.empty() ? kNaN : points.front().objective};
+}
+
+Json json_regret(const Regret& regret) {
+  return {{"reached", json_number(regret.reached)},
+          {"objective", json_number(regret.objective)},
+          {"best", json_number(regret.best)},
+          {"regret", json_number(regret.part())}};
+}
+
+void add_regret(const QueryRequest& request, const Question& question, const Along& along, const AlongRequest& asked,
+                Json& json, std::string& table) {
+  const Verdict verdict = judge(request.grid(), request.conditions, setting_from(request, asked.setting));
+  const Regret regret = regret_of(request, question, along, asked.refine, verdict.measured);
+  json["regret"] = json_regret(regret);
+  table += fmt::format("{}: {} at {} = {}; the best there is {}: regret {:.3g} %\n", asked.setting,
+                       short_number(regret.objective), along.expression.text(), short_number(regret.reached),
+                       short_number(regret.best), 100 * regret.part());
+}
+
+/// Of rules that have a stable loop here.
+void add_rules(const QueryRequest& request, const Question& question, const Along& along, const AlongRequest& asked,
+               Json& json, std::string& table) {
+  const std::vector<RuleOnPortrait> rules = rules_on(request.grid(), question, std::nullopt);
+  table += fmt::format("\nrules, with the portrait's filter and prefilter\n  {:<20} {:>12}  {:>12}  {:>12}  {:>10}\n", "",
+                       along.expression.text(), asked.minimize.size() > 12 ? "objective" : asked.minimize, "best there",
+                       "regret");
+  Json list = Json::array();
+  for (const RuleOnPortrait& r : rules) {
+    if (!r.not_applicable.empty() || std::isnan(r.objective)) continue;
+    const Measured measured{r.setting, r.status, r.measures, request.conditions.units.plant};
+    const Regret regret = regret_of(request, question, along, asked.refine, measured);
+    Json of_rule = json_regret(regret);
+    of_rule["rule"] = r.rule->name;
+    of_rule["remark"] = rule_remark(question, r);
+    of_rule["settings"] = json_settings({request.grid().family, r.setting});
+    list.push_back(std::move(of_rule));
+    const bool compared = !std::isnan(regret.best);
+    table += fmt::format("  {:<20} {:>12}  {:>12}  {:>12}  {:>10}  {}\n", r.rule->name, short_number(regret.reached),
+                         short_number(regret.objective), compared ? short_number(regret.best) : "none",
+                         compared ? fmt::format("{:.3g} %", 100 * regret.part()) : "", rule_remark(question, r));
+  }
+  json["rules"] = std::move(list);
 }
 
 }  // namespace
@@ -330,14 +369,13 @@ int print_why(const QueryRequest& request, const std::string& text, const std::s
   return kDone;
 }
 
-int print_along(const QueryRequest& request, const std::string& minimize, const std::string& text, bool refined,
-                const std::string& setting) {
-  const Along along = along_argument(text);
-  const Question question{.minimize = parse_expression({"--minimize", minimize}), .conditions = request.conditions};
-  const std::vector<AlongPoint> points = points_along(request, question, along, refined);
+int print_along(const QueryRequest& request, const AlongRequest& asked) {
+  const Along along = along_argument(asked.along);
+  const Question question{.minimize = parse_expression({"--minimize", asked.minimize}), .conditions = request.conditions};
+  const std::vector<AlongPoint> points = points_along(request, question, along, asked.refine);
   if (points.empty()) return none_admissible(request, setting_count(request.grid()));
   Json list = Json::array();
-  std::string table = fmt::format("{:>12}  {:>12}  {:>12}\n", along.expression.text() + " <=", minimize, "reached");
+  std::string table = fmt::format("{:>12}  {:>12}  {:>12}\n", along.expression.text() + " <=", asked.minimize, "reached");
   for (const AlongPoint& point : points) {
     list.push_back({{"bound", point.bound},
                     {"objective", json_number(point.objective)},
@@ -349,7 +387,8 @@ int print_along(const QueryRequest& request, const std::string& minimize, const 
   }
   Json json{{"along", along.expression.text()}, {"points", list}};
   add_units(json, request.grid(), request.conditions);
-  if (!setting.empty()) add_regret(request, question, along, refined, setting, json, table);
+  if (!asked.setting.empty()) add_regret(request, question, along, asked, json, table);
+  if (asked.rules) add_rules(request, question, along, asked, json, table);
   if (request.form == OutputForm::json)
     print_json(json);
   else

@@ -30,9 +30,15 @@ int print_region(const QueryRequest& request);
 /// it compares with the best.
 int print_why(const QueryRequest& request, const std::string& setting, const std::string& minimize);
 
-/// --along 'Ms=1.3..2.0:15': the best objective along a bound; with `refine` between grid points; with a setting (--why)
-/// also its regret.
-int print_along(const QueryRequest& request, const std::string& minimize, const std::string& along, bool refine,
-                const std::string& setting);
+struct AlongRequest {
+  std::string minimize, along;  ///< "Ms=1.3..2.0:15"
+  bool refine = false;          ///< between grid points
+  std::string setting;          ///< of --why: its regret too; may be empty
+  bool rules = false;           ///< and that of every tuning rule
+};
+
+/// --along: the best objective along a bound. The regret of a setting is what it costs more than the best under its own
+/// value of the bound.
+int print_along(const QueryRequest& request, const AlongRequest& asked);
 
 }  // namespace portrait::tools

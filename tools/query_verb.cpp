@@ -298,11 +298,13 @@ int query(const QueryArguments& a) {
                                      : OutputForm::text};
   if (!a.uncertain.empty()) return robust(a, request);
   if (a.over != "worst") throw InputError("--objective-over belongs to --uncertain");
+  if (a.rules && (!a.pareto.empty() || a.region || (!a.why.empty() && a.along.empty())))
+    throw InputError("--rules belongs to the best settings, or to --along");
   if (!a.pareto.empty()) return print_pareto(request, a.pareto, a.points);
   if (a.region) return print_region(request);
   if (!a.why.empty() && a.along.empty()) return print_why(request, a.why, a.minimize);
   if (a.minimize.empty()) throw InputError("--minimize is missing: an expression, as IAE_w + IAE_d");
-  if (!a.along.empty()) return print_along(request, a.minimize, a.along, a.refine, a.why);
+  if (!a.along.empty()) return print_along(request, {a.minimize, a.along, a.refine, a.why, a.rules});
   return best(a, request);
 }
 
@@ -350,7 +352,7 @@ void add_query(CLI::App& app, Invocation& invocation) {
   verb->add_option("--objective-over", a->over, "with --uncertain, the objective over the box: worst, mean or nominal")
       ->capture_default_str();
   verb->add_option("--step", a->step, "w=..,d=..: sizes of the steps in setpoint and disturbance (1 each)");
-  verb->add_flag("--rules", a->rules, "where each tuning rule lies: admissible or not, and its objective over the optimum's");
+  verb->add_flag("--rules", a->rules, "where each tuning rule lies: admissible or not, and its objective over the optimum's, or along the bound");
   verb->add_flag("--include-not-settled", a->include_not_settled,
                  "also settings whose responses had not settled at the horizon");
   verb->add_option("--threads", a->threads, "threads to read with (all)");

@@ -240,6 +240,31 @@ class Query(ProgramTest):
         self.assert_fails(self.query("--minimize", "IAE_d", "--along", "Ms=2"), 2,
                           '--along: "Ms=2" is not of the form EXPR=FROM..TO:COUNT, as Ms=1.3..2.0:15')
 
+    def test_rules_along_a_bound(self):
+        settled = ("--include-not-settled",)
+        ask = ("--minimize", "IAE_d", "--along", "Ms=1.5..4:6", "--rules", *settled)
+        rules = self.query(*ask, "--json").json["rules"]
+        alone = {r["rule"]: r for r in self.query("--minimize", "IAE_d", "--rules", "--json", *settled).json["rules"]}
+        self.assertGreater(len(rules), 2)
+        compared = 0
+        for rule in rules:
+            same = alone[rule["rule"]]
+            self.assertEqual(rule["objective"], same["objective"])
+            self.assertEqual(rule["reached"], same["measures"]["Ms"])
+            best = self.query("--minimize", "IAE_d", "--where", f"Ms <= {rule['reached']}", "--json", *settled).json
+            if rule["best"] is None:
+                self.assertIsNone(best["optimum"])
+                continue
+            compared += 1
+            self.assertEqual(rule["best"], best["optimum"]["objective"])
+            self.assertAlmostEqual(rule["regret"], rule["objective"] / rule["best"] - 1, places=12)
+        self.assertGreater(compared, 1)
+        text = self.query(*ask).out
+        for rule in rules:
+            self.assertIn(f"\n  {rule['rule']} ", text)
+        for other in (("--region",), ("--pareto", "IAE_w,IAE_d"), ("--why", "kappa=0.16,delta=0.7,tau_i=8")):
+            self.assert_fails(self.query(*other, "--rules"), 2, "--rules belongs to the best settings, or to --along")
+
     def test_csv(self):
         result = self.query("--minimize", "IAE_w", "--top", "100", "--csv")
         rows = list(csv.DictReader(io.StringIO(result.out)))
