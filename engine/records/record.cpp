@@ -105,7 +105,7 @@ Record read_record(std::string_view text, const std::string& source) {
     if (line.find_first_not_of(" \t\r") == std::string_view::npos || line.starts_with("#")) continue;
     const auto found = cells(line);
     const Place place{source, number, 0};
-    const bool header = first && !parse_number(found.front());
+    const bool header = first && (found.empty() || !parse_number(found.front()));
     first = false;
     if (header)
       columns = columns_of(found, place);

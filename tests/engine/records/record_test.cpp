@@ -45,6 +45,8 @@ TEST(Record, WrongFilesGetClearAnswers) {
   EXPECT_EQ(error_of("0,0,0\n2,0,0\n1,0,0\n"), "r.csv:3: t = 1 does not come after 2");
   EXPECT_EQ(error_of("0,0,0\n1,0,0\n"), "r.csv: 2 samples are too few for a response");
   EXPECT_EQ(error_of(rows(20, "0")), "u never changes: a record needs a step, or any other change of u");
+  EXPECT_EQ(error_of("\"\n"), "r.csv:1: no column \"t\": the header must name t, u and y (it has )");
+  EXPECT_EQ(error_of("0,0,0\n\" \"\n"), "r.csv:2: 0 columns, expected 3 (t, u, y)");
   EXPECT_EQ(error_of(""), "r.csv: 0 samples are too few for a response");
 }
 
