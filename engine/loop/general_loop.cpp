@@ -91,6 +91,45 @@ int loop_excess(const GeneralLoop& loop) {
          relative_degree(loop.plant.rational);
 }
 
+/// The least and the greatest time that a polynomial stands for: of 1 + a s + b s^2 + ..., |a|, sqrt(|b/a|), ...
+struct Times {
+  double least = kInf, greatest = 0;
+  void take(double time) { least = std::min(least, time), greatest = std::max(greatest, time); }
+  void take(const Polynomial& p) {
+    std::optional<std::size_t> before;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      if (p[k] == 0) continue;
+      if (before) take(std::pow(std::abs(p[k] / p[*before]), 1 / static_cast<double>(k - *before)));
+      before = k;
+    }
+  }
+};
+
+/// Products of all factors, squared, must stay within the range of double.
+std::optional<std::string> why_too_far_apart(const GeneralLoop& loop) {
+  constexpr double kMostDigits = 150, kMostOfOne = 15, kMostOfGain = 60;
+  Times times;
+  int orders = 0;
+  double largest = 0, smallest = kInf;
+  const auto take = [&](const Polynomial& p) {
+    times.take(p), orders += static_cast<int>(p.size()) - 1;
+    for (const double a : p)
+      if (a != 0) largest = std::max(largest, std::abs(a)), smallest = std::min(smallest, std::abs(a));
+  };
+  for (const TransferFunction* G : {&loop.plant.rational, &loop.controller.prefilter}) {
+    take(G->numerator);
+    for (const Polynomial& factor : G->denominator) take(factor);
+  }
+  take(loop.controller.on_output), take(loop.controller.on_setpoint);
+  for (const Polynomial& factor : loop.controller.denominator) take(factor);
+  if (largest > std::pow(10, kMostOfGain) || smallest < std::pow(10, -kMostOfGain))
+    return fmt::format("a coefficient is beyond what can be computed with: 1e-{0} to 1e{0}, or 0", kMostOfGain);
+  if (loop.plant.dead_time > 0) times.take(loop.plant.dead_time);
+  const double digits = times.greatest > 0 ? std::log10(times.greatest / times.least) : 0;
+  if (digits <= kMostOfOne && digits * orders <= kMostDigits) return std::nullopt;
+  return fmt::format("its times lie too far apart to compute with: {} to {}", number_text(times.least), number_text(times.greatest));
+}
+
 /// F(s) of the normalised families.
 TransferFunction prefilter(const Loop& loop) {
   const Setting& s = loop.setting;
@@ -112,6 +151,7 @@ TransferFunction prefilter(const Loop& loop) {
 std::optional<std::string> why_invalid(const GeneralLoop& loop) {
   if (auto reason = why_plant_invalid(loop.plant)) return reason;
   if (auto reason = why_controller_invalid(loop.controller)) return reason;
+  if (auto reason = why_too_far_apart(loop)) return reason;
   const bool derivative = degree(loop.controller.on_output) > degree(loop.controller.denominator);
   if (derivative && relative_degree(loop.plant.rational) < 1)
     return "the ideal derivative of an output that follows the input at once is an impulse; give the controller a "

@@ -170,5 +170,18 @@ TEST(GeneralLoop, WeightsAreThoseOfTheSetpoint) {
   EXPECT_EQ(pd.on_setpoint, (Polynomial{1}));
 }
 
+/// Numbers whose products no double holds are refused: roots would be lost without a word.
+TEST(GeneralLoopReason, TimesThatLieTooFarApart) {
+  const GeneralLoop usual{{multiple_lag(1, 2, 3), 1}, pid_controller(parallel(StandardForm{0.5, 4, 0.5}), 1, 0.1)};
+  EXPECT_EQ(why_invalid(usual), std::nullopt);
+  GeneralLoop loop = usual;
+  loop.plant.dead_time = 3e44;
+  EXPECT_EQ(why_invalid(loop), "its times lie too far apart to compute with: 0.1 to 3e+44");
+  loop.plant.dead_time = 1e-9;
+  EXPECT_EQ(why_invalid(loop), std::nullopt);
+  loop = usual, loop.plant.rational.numerator = {1e70};
+  EXPECT_EQ(why_invalid(loop), "a coefficient is beyond what can be computed with: 1e-60 to 1e60, or 0");
+}
+
 }  // namespace
 }  // namespace portrait
