@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -31,11 +32,15 @@ class NumberedTiles {
     }
   }
 
-  std::vector<std::uint64_t> made, stored;  ///< tiles, in the order of the calls
+  std::vector<std::uint64_t> made;    ///< tiles, in the order of the calls, which many threads make
+  std::vector<std::uint64_t> stored;  ///< likewise, by one thread at a time
 
  private:
   std::vector<Setting> make(std::uint64_t tile) {
-    made.push_back(tile);
+    {
+      const std::scoped_lock lock(mutex_);
+      made.push_back(tile);
+    }
     std::vector<Setting> settings(sizes_[tile]);
     for (std::size_t i = 0; i < settings.size(); ++i) settings[i].kappa = number(tile, i);
     return settings;
@@ -54,6 +59,7 @@ class NumberedTiles {
   static double number(std::uint64_t tile, std::size_t i) { return static_cast<double>(1'000'000 * tile + i); }
 
   std::vector<std::size_t> sizes_;
+  std::mutex mutex_;
 };
 
 }  // namespace portrait
