@@ -30,7 +30,8 @@ class KeptPages {
   /// Nothing where none fits well.
   PageMemory take(std::size_t bytes) {
     const std::scoped_lock lock(mutex_);
-    const auto fits = [bytes](const Kept& kept) { return bytes <= kept.bytes && kept.bytes <= std::max(2 * bytes, kLargePage); };
+    const std::size_t most = std::max(2 * bytes, kLargePage);
+    const auto fits = [=](const Kept& kept) { return bytes <= kept.bytes && kept.bytes <= most; };
     const auto found = std::find_if(free_.rbegin(), free_.rend(), fits);
     if (found == free_.rend()) return nullptr;
     PageMemory memory(found->memory, GiveBackPages{found->bytes});

@@ -1,7 +1,8 @@
 /// Memory that direct reads and writes (O_DIRECT) take as it is: it begins with a page and has whole pages.
 ///
-/// What is given back is kept for whoever asks next, up to kKeptBytes: tiles come and go, a megabyte each, and the allocator
-/// would cut up the holes that they leave, or give them back to the system, which has to clear new pages for the next.
+/// What is given back is kept for whoever asks next, up to kKeptBytes: tiles come and go, a megabyte each, and the
+/// allocator would cut up the holes that they leave, or give them back to the system, which has to clear new pages for
+/// the next.
 ///
 /// threads   any number
 #pragma once
