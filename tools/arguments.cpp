@@ -125,12 +125,15 @@ PlantBox uncertain_argument(std::string_view option, std::string_view text, cons
   const RealPlant middle = nominal.value_or(RealPlant{.family = family, .K = 1, .Td = 0, .T1 = 0});
   PlantBox box{middle, {middle.K, middle.K}, {middle.Td, middle.Td}, {middle.T1, middle.T1}};
   const std::vector<Assignment> given = assignments(option, text);
-  if (given.empty()) fail(option, "say which of K, Td and T1 vary, as K=0.8..1.2,Td=0.8..1.2");
+  std::vector<std::string_view> names = {"K", "Td"};
+  if (lag_parameter(family)) names.push_back(lag_name(family));
+  if (given.empty())
+    fail(option, fmt::format("say which of {} vary, as K=0.8..1.2,Td=0.8..1.2", joined(names)));
   for (const auto& [name, value] : given) {
-    if (name != "K" && name != "Td" && name != "T1")
-      fail(option, fmt::format("unknown name \"{}\"{}", name, suggestion(name, {"K", "Td", "T1"})));
     if (name == "T1" && family != Plant::fotd)
       fail(option, fmt::format("T1 belongs to fotd, not to {}", to_string(family)));
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      fail(option, fmt::format("unknown name \"{}\"{}", name, suggestion(name, names)));
     const Range range = range_of(option, value);
     (name == "K" ? box.K : name == "Td" ? box.Td : box.T1) = range;
     if (!nominal)

@@ -21,7 +21,7 @@ std::string plant_words(const PlantBox& box, const RealPlant& plant) {
   const double values[] = {plant.K, plant.Td, plant.T1};
   std::string text;
   for (const std::size_t k : box.uncertain())
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name_of_uncertain(k), short_number(values[k]));
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name_of_uncertain(box.nominal.family, k), short_number(values[k]));
   return text.empty() ? "the plant" : text;
 }
 
@@ -29,7 +29,7 @@ std::string box_words(const PlantBox& box) {
   const Range ranges[] = {box.K, box.Td, box.T1};
   std::string text;
   for (const std::size_t k : box.uncertain())
-    text += fmt::format("{}{} in {}..{}", text.empty() ? "" : ", ", name_of_uncertain(k),
+    text += fmt::format("{}{} in {}..{}", text.empty() ? "" : ", ", name_of_uncertain(box.nominal.family, k),
                         number_text(ranges[k].low), number_text(ranges[k].high));
   return text.empty() ? "one plant" : text;
 }
@@ -79,7 +79,7 @@ Json json_box(const PlantBox& box) {
   const Range ranges[] = {box.K, box.Td, box.T1};
   Json json = Json::object();
   for (const std::size_t k : box.uncertain())
-    json[std::string(name_of_uncertain(k))] = {{"from", ranges[k].low}, {"to", ranges[k].high}};
+    json[std::string(name_of_uncertain(box.nominal.family, k))] = {{"from", ranges[k].low}, {"to", ranges[k].high}};
   return json;
 }
 

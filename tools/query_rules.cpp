@@ -9,6 +9,7 @@
 #include "engine/base/words.h"
 #include "engine/rules/catalogue.h"
 #include "engine/sweep/method.h"
+#include "grids/sweep_job.h"
 
 namespace portrait::tools {
 namespace {
@@ -21,20 +22,21 @@ std::optional<double> fixed_value(const Grid& grid, Parameter parameter) {
 
 /// The plant in whose units the rules work.
 RealPlant plant_of(const Grid& grid, const QueryUnits& units) {
-  if (!is_basic(grid.family))
-    throw InputError(
-        "--rules: of portraits of dipdt, ipdt and fotd with a PID controller; for others see portrait tune");
+  if (has_gains(grid.family))
+    throw InputError("--rules: of portraits with a PID controller; for gains see portrait tune");
   if (units.plant) return *units.plant;
   RealPlant plant{.family = grid.family.plant, .K = 1, .Td = 1, .T1 = 0};
-  if (grid.family.plant != Plant::fotd) return plant;
-  const auto tau_1 = fixed_value(grid, Parameter::tau_1);
-  if (!tau_1)
-    throw InputError("--rules: tau_1 is an axis of this portrait: give the plant, --plant K=..,Td=..,T1=..");
-  plant.T1 = *tau_1;
+  const std::optional<Parameter> parameter = lag_parameter(grid.family.plant);
+  if (!parameter) return plant;
+  const auto lag = fixed_value(grid, *parameter);
+  if (!lag)
+    throw InputError(fmt::format("--rules: {} is an axis of this portrait: give the plant, --plant K=..,Td=..,{}=..",
+                                 to_string(*parameter), lag_name(grid.family.plant)));
+  plant.T1 = *lag;
   return plant;
 }
 
-rules::RulePlant rule_plant(const RealPlant& p) {
+rules::RulePlant rule_plant(const RealPlant& p, int order) {
   switch (p.family) {
     case Plant::dipdt:
       return rules::dipdt(p.K, p.Td);
@@ -43,7 +45,7 @@ rules::RulePlant rule_plant(const RealPlant& p) {
     default:
       break;
   }
-  return rules::jotd(p.K, p.Td, p.T1, 1);
+  return rules::jotd(p.K, p.Td, p.T1, p.family == Plant::jotd ? order : 1);
 }
 
 /// The portrait's filter, where it has one value and the rule can take it into account.
@@ -104,7 +106,7 @@ std::vector<std::string> off_axes(const Grid& grid, const Setting& setting) {
 
 void measure_rule(const Grid& grid, const Question& question, std::optional<double> optimum, RuleOnPortrait& r) {
   SettingMeasured found;
-  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid.measures, grid.sampling),
+  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid),
                    {&r.setting, 1}, {&found, 1});
   const Conditions& conditions = question.conditions;
   for (const Measure m : all_measures()) r.measures[m] = found.measures[m] * factor(m, conditions.units);
@@ -126,7 +128,7 @@ RuleOnPortrait rule_on(const rules::Rule& rule, const Grid& grid, const Question
   RuleOnPortrait r{&rule, "", {}, {}, kNaN, Status::not_computed, {}, {}};
   const RealPlant plant = plant_of(grid, question.conditions.units);
   try {
-    const rules::Tuned tuned = rules::tune(rule, rule_plant(plant), options_for(rule, grid, plant));
+    const rules::Tuned tuned = rules::tune(rule, rule_plant(plant, grid.family.j), options_for(rule, grid, plant));
     if (!tuned.pid) {
       r.not_applicable = "its controller is no PID with one filter";
       return r;

@@ -346,7 +346,7 @@ void add_query(CLI::App& app, Invocation& invocation) {
   add_many(*verb, "--where", a->where, "a constraint, EXPR <= X (or <, >=, >, ==); any number of times");
   verb->add_option("--top", a->top, "how many of the best settings to list")->capture_default_str();
   verb->add_option("--plant", a->plant, "K=..,Td=..[,T1=..]: the answer in the units of this plant");
-  verb->add_option("--uncertain", a->uncertain, "K=lo..hi,Td=lo..hi[,T1=lo..hi]: serve every plant of this box");
+  verb->add_option("--uncertain", a->uncertain, "K=lo..hi,Td=lo..hi[,T1=lo..hi; jotd: Tj]: serve every plant of this box");
   verb->add_option("--objective-over", a->over, "with --uncertain, the objective over the box: worst, mean or nominal")
       ->capture_default_str();
   verb->add_option("--step", a->step, "w=..,d=..: sizes of the steps in setpoint and disturbance (1 each)");

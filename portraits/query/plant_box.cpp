@@ -11,8 +11,6 @@
 namespace portrait {
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames = {"K", "Td", "T1"};
-
 std::array<Range, 3> ranges_of(const PlantBox& box) { return {box.K, box.Td, box.T1}; }
 
 /// Exact at both ends.
@@ -45,7 +43,9 @@ std::optional<std::string> why_range_invalid(std::string_view name, const Range&
 
 }  // namespace
 
-std::string_view name_of_uncertain(std::size_t which) { return kNames.at(which); }
+std::string_view name_of_uncertain(Plant family, std::size_t which) {
+  return std::array<std::string_view, 3>{"K", "Td", lag_name(family)}.at(which);
+}
 
 std::vector<std::size_t> PlantBox::uncertain() const {
   std::vector<std::size_t> wide;
@@ -91,7 +91,7 @@ std::optional<std::string> why_invalid(const PlantBox& box) {
   const RealPlant& n = box.nominal;
   if (auto why = why_range_invalid("K", box.K, n.K)) return why;
   if (auto why = why_range_invalid("Td", box.Td, n.Td)) return why;
-  if (auto why = why_range_invalid("T1", box.T1, n.T1)) return why;
+  if (auto why = why_range_invalid(lag_name(n.family), box.T1, n.T1)) return why;
   if (box.K.low <= 0 && box.K.high >= 0)
     return fmt::format("K={}..{} holds 0: no controller serves a gain that may vanish or change its sign",
                        number_text(box.K.low), number_text(box.K.high));

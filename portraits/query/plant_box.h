@@ -1,4 +1,4 @@
-/// A plant that is known only within bounds: every K, Td (and T1) of a box, seen by one real controller.
+/// A plant that is known only within bounds: every K, Td (and T1, of jotd Tj) of a box, seen by one real controller.
 ///
 /// The controller stays as it is in real units while the plant moves, so its normalised setting moves along a curved patch
 /// of the portrait: kappa = Kc K Td^2 (dipdt), tau_i = Ti/Td, tau_f = Tf/Td, tau_1 = T1/Td, ... Each of them rises or falls
@@ -38,8 +38,8 @@ struct PlantBox {
   std::vector<BoxPoint> middles(std::size_t count) const;
 };
 
-/// "T1", ...
-std::string_view name_of_uncertain(std::size_t which);
+/// "K", "Td", and the time constant of the family's lags: "T1", "Tj".
+std::string_view name_of_uncertain(Plant family, std::size_t which);
 
 /// Why such a box cannot be, or nothing: an end out of order, a plant that cannot be, a gain of either sign, a nominal
 /// plant outside.

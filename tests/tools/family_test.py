@@ -105,12 +105,32 @@ class Families(program.ProgramTest):
         self.refused(GAINS_GRID.replace("K_0 = { from = 0.6, to = 1.2, count = 4 }\n", ""), "the proportional gain")
         self.refused(GAINS_GRID.replace('plant = "jotd"', 'plant = "tf"'), 'unknown plant "tf"')
         self.refused(GAINS_GRID + "K_7 = 1\n", 'unknown key "K_7"')
-        self.refused("noise = 0.1\n" + GAINS_GRID, 'family.toml:1:1: "noise": a sweep draws no noise; with the key "sampling" it keeps noise_gain')
         self.swept(GAINS_GRID)
         asked = self.run_program("query", "family.h5", "--minimize", "IAE_w", "--plant", "K=2,Td=3,Tj=2.4")
         self.assertEqual(asked.code, 2)
         self.assertIn("a portrait of gains is asked in normalised numbers", asked.err)
         self.assertIn('no parameter "kappa" (it has: ', self.run_program("query", "family.h5", "--minimize", "kappa").err)
+
+
+    def test_a_box_of_plants_and_rules_know_the_lags_of_jotd(self):
+        self.swept(JOTD_GRID.replace("tau_j = [0.5, 1]", "tau_j = 1"))
+        ask = ("query", "family.h5", "--minimize", "IAE_d", "--where", "Ms <= 2.5")
+        box = self.run_program(*ask, "--uncertain", "K=0.9..1.1,Tj=1.8..2.2", "--plant", "K=1,Td=2,Tj=2", "--json")
+        self.assertEqual(box.code, 0, box.err)
+        self.assertEqual(box.json["uncertain"]["Tj"], {"from": 1.8, "to": 2.2})
+        self.assertIn("Tj in 1.8..2.2", self.run_program(*ask, "--uncertain", "K=0.9..1.1,Tj=1.8..2.2", "--plant", "K=1,Td=2,Tj=2").out)
+        for wrong, why in (("T1=1.8..2.2", "T1 belongs to fotd, not to jotd"), ("Tk=1..2", 'unknown name "Tk" (did you mean "Tj"?)')):
+            refused = self.run_program(*ask, "--uncertain", wrong, "--plant", "K=1,Td=2,Tj=2")
+            self.assertEqual(refused.code, 2)
+            self.assertIn(why, refused.err)
+        rules = self.run_program(*ask, "--rules", "--json")
+        self.assertEqual(rules.code, 0, rules.err)
+        applied = [r["rule"] for r in rules.json["rules"] if r["applicable"]]
+        self.assertGreater(len(applied), 0, [r["why"] for r in rules.json["rules"]])
+        self.swept(GAINS_GRID)
+        refused = self.run_program("query", "family.h5", "--minimize", "IAE_w", "--rules")
+        self.assertEqual(refused.code, 2)
+        self.assertIn("--rules: of portraits with a PID controller; for gains see portrait tune", refused.err)
 
 
 class FurtherMeasures(program.ProgramTest):

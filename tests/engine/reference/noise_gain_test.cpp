@@ -10,7 +10,7 @@
 #include "engine/loop/parameters.h"
 #include "engine/reference/response.h"
 #include "tests/oracle/quadrature.h"
-#include "tests/oracle/random_loops.h"
+#include "tests/oracle/random_cascades.h"
 
 namespace portrait::reference {
 namespace {
@@ -62,6 +62,17 @@ TEST(NoiseGain, IsThatOfASimulatedPulse) {
     const Loop loop = oracle::random_stable_loop(random);
     if (loop.family.n == 0 && loop.setting.delta > 0) continue;
     expect_same(loop, random.log_uniform(0.01, 10));
+    ++i;
+  }
+}
+
+/// Plants of many lags, controllers given by their gains.
+TEST(NoiseGain, OfTheWiderFamilyToo) {
+  oracle::Random random(61);
+  for (int i = 0; i < 15;) {
+    const Loop loop = oracle::random_cascade(random);
+    if (loop.family.n == 0 && loop.setting.delta > 0) continue;
+    expect_same(loop, random.log_uniform(0.02, 5));
     ++i;
   }
 }
