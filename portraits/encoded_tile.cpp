@@ -51,9 +51,10 @@ class ChunkRow {
   void add(const std::vector<double>& values) {
     const bool twice = precision_ == Precision::real64;
     const std::size_t element = twice ? sizeof(double) : sizeof(float);
-    (twice ? convert_to_double : convert_to_float)(values.data(), values.size(), next_);
+    const auto convert = twice ? convert_to_double : convert_to_float;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    (twice ? convert_to_double : convert_to_float)(&nan, 1, fill_);
+    convert(values.data(), values.size(), next_);
+    convert(&nan, 1, fill_);
     const std::span written(next_, values.size() * element);
     finish(written, element, range_summary(written, element));
   }

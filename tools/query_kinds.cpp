@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -269,11 +270,20 @@ struct Regret {
   double part() const { return objective / best - 1; }
 };
 
-Regret regret_of(const QueryRequest& request, const Question& question, const Along& along, bool refined,
-                 const Measured& measured) {
-  const double reached = value_at(along.expression, measured);
-  const auto points = points_along(request, question, {along.expression, {reached}}, refined);
-  return {reached, value_at(question.minimize, measured), points.empty() ? kNaN : points.front().objective};
+/// Of each of these, in their order: one pass over the portrait finds the best for all.
+std::vector<Regret> regrets_of(const QueryRequest& request, const Question& question, const Along& along, bool refined,
+                               std::span<const Measured> controllers) {
+  std::vector<Regret> regrets;
+  Along reached{along.expression, {}};
+  for (const Measured& measured : controllers) {
+    regrets.push_back({value_at(along.expression, measured), value_at(question.minimize, measured), kNaN});
+    reached.bounds.push_back(regrets.back().reached);
+  }
+  std::sort(reached.bounds.begin(), reached.bounds.end());
+  for (const AlongPoint& point : points_along(request, question, reached, refined))
+    for (Regret& regret : regrets)
+      if (regret.reached == point.bound) regret.best = point.objective;
+  return regrets;
 }
 
 Json json_regret(const Regret& regret) {
@@ -286,7 +296,7 @@ Json json_regret(const Regret& regret) {
 void add_regret(const QueryRequest& request, const Question& question, const Along& along, const AlongRequest& asked,
                 Json& json, std::string& table) {
   const Verdict verdict = judge(request.grid(), request.conditions, setting_from(request, asked.setting));
-  const Regret regret = regret_of(request, question, along, asked.refine, verdict.measured);
+  const Regret regret = regrets_of(request, question, along, asked.refine, {&verdict.measured, 1}).front();
   json["regret"] = json_regret(regret);
   table += fmt::format("{}: {} at {} = {}; the best there is {}: regret {:.3g} %\n", asked.setting,
                        short_number(regret.objective), along.expression.text(), short_number(regret.reached),
@@ -296,15 +306,19 @@ void add_regret(const QueryRequest& request, const Question& question, const Alo
 /// Of rules that have a stable loop here.
 void add_rules(const QueryRequest& request, const Question& question, const Along& along, const AlongRequest& asked,
                Json& json, std::string& table) {
-  const std::vector<RuleOnPortrait> rules = rules_on(request.grid(), question, std::nullopt);
+  std::vector<RuleOnPortrait> rules = rules_on(request.grid(), question, std::nullopt);
+  std::erase_if(rules, [](const RuleOnPortrait& r) { return !r.not_applicable.empty() || std::isnan(r.objective); });
+  std::vector<Measured> measured;
+  for (const RuleOnPortrait& r : rules)
+    measured.push_back({r.setting, r.status, r.measures, request.conditions.units.plant});
+  const std::vector<Regret> regrets = regrets_of(request, question, along, asked.refine, measured);
   table += fmt::format("\nrules, with the portrait's filter and prefilter\n  {:<20} {:>12}  {:>12}  {:>12}  {:>10}\n", "",
                        along.expression.text(), asked.minimize.size() > 12 ? "objective" : asked.minimize, "best there",
                        "regret");
   Json list = Json::array();
-  for (const RuleOnPortrait& r : rules) {
-    if (!r.not_applicable.empty() || std::isnan(r.objective)) continue;
-    const Measured measured{r.setting, r.status, r.measures, request.conditions.units.plant};
-    const Regret regret = regret_of(request, question, along, asked.refine, measured);
+  for (std::size_t k = 0; k < rules.size(); ++k) {
+    const RuleOnPortrait& r = rules[k];
+    const Regret& regret = regrets[k];
     Json of_rule = json_regret(regret);
     of_rule["rule"] = r.rule->name;
     of_rule["remark"] = rule_remark(question, r);

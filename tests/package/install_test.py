@@ -4,7 +4,6 @@ usage: install_test.py PORTRAIT SOURCES BUILD
 """
 
 import json
-import os
 import pathlib
 import re
 import shutil
@@ -110,10 +109,11 @@ class DebianPackage(unittest.TestCase):
             for library in ("libhdf5-103-1", "libgomp1", "libc6"):
                 self.assertIn(library, field["Depends"])
             self.assertEqual(field["Recommends"], "gnuplot-nox")
-            run("dpkg-deb", "-x", made[0], f"{folder}/root")
-            self.assertTrue(run(f"{folder}/root/usr/bin/portrait", "--version").startswith(f"portrait {version()} ("))
-            self.assertTrue(os.path.exists(f"{folder}/root/usr/share/man/man1/portrait-query.1")
-                            or os.path.exists(f"{folder}/root/usr/share/man/man1/portrait-query.1.gz"))
+            run("dpkg-deb", "-x", made[0], f"{folder}/unpacked")
+            unpacked = pathlib.Path(folder, "unpacked", "usr")
+            self.assertTrue(run(unpacked / "bin/portrait", "--version").startswith(f"portrait {version()} ("))
+            page = unpacked / "share/man/man1/portrait-query.1"
+            self.assertTrue(page.exists() or page.with_name("portrait-query.1.gz").exists())
 
 
 if __name__ == "__main__":
