@@ -6,12 +6,13 @@
 #define PORTRAIT_ISA_NAME counted
 #include "bench/counted_lanes.inl"
 #include "engine/kernel/margins.inl"
+#include "engine/kernel/noise.inl"
 #include "engine/kernel/run_pack.inl"
 
 namespace portrait::counted {
 
 extern const kernel::Implementation kImplementation;
-const kernel::Implementation kImplementation = {"counted", kLanes, run, find_margins};
+const kernel::Implementation kImplementation = {"counted", kLanes, run, find_margins, run_noise};
 
 long operations_so_far() { return operations; }
 

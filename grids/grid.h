@@ -10,6 +10,7 @@
 
 #include "engine/loop/horizon.h"
 #include "engine/loop/loop.h"
+#include "engine/loop/noise.h"
 #include "engine/measures/catalogue.h"
 #include "grids/axis.h"
 
@@ -28,6 +29,8 @@ struct Grid {
   LoopFamily family;
   Horizon horizon;
   std::optional<double> sampling;  ///< dead times over which noise is held: there when noise_gain is kept
+  std::optional<NoiseTrials> noise =
+      std::nullopt;  ///< held over `sampling`; then the horizon is fixed and every controller proper
   Precision precision = Precision::real64;
   std::vector<Measure> measures;      ///< kept ones, in catalogue order
   std::vector<Axis> axes;             ///< in the order of the grid file; a single setting has none

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/words.h"
+#include "engine/kernel/noise.h"
 #include "grids/document.h"
 #include "grids/parameter_entries.h"
 #include "grids/toml.h"
@@ -130,23 +131,29 @@ std::optional<double> sampling_in(const Value::Table& root) {
                                                    kHorizonCap, number_text(dead_times)));
 }
 
-std::vector<Measure> usual_measures(bool with_noise) {
+std::vector<Measure> usual_measures(const Grid& grid) {
   std::vector<Measure> usual;
   for (const Measure measure : standard_measures())
-    if (with_noise || measure != Measure::noise_gain) usual.push_back(measure);
+    if (grid.sampling || measure != Measure::noise_gain) usual.push_back(measure);
+  if (grid.noise) usual.insert(usual.end(), noisy_measures().begin(), noisy_measures().end());
   return usual;
 }
 
-std::vector<Measure> measures_in(const Value::Table& root, bool with_noise) {
+std::vector<Measure> measures_in(const Value::Table& root, const Grid& grid) {
   const Entry* entry = find(root, "measures");
-  if (!entry) return usual_measures(with_noise);
+  if (!entry) return usual_measures(grid);
   std::vector<Measure> kept;
   for (const Value& item : list_in("measures", entry->value)) {
     kept.push_back(thing_in("measure", item, measure_named, measure_names()));
-    if (kept.back() == Measure::noise_gain && !with_noise)
+    if (kept.back() == Measure::noise_gain && !grid.sampling)
       throw InputError(item.place,
                        "measure \"noise_gain\" needs the key \"sampling\": over how many dead times noise "
                        "is held, as in sampling = 0.1");
+    if (is_noisy(kept.back()) && !grid.noise)
+      throw InputError(item.place,
+                       fmt::format("measure \"{}\" needs the key \"noise\", the amplitude of the noise, as in "
+                                   "noise = 0.01",
+                                   to_string(kept.back())));
     if (std::count(kept.begin(), kept.end(), kept.back()) > 1)
       throw InputError(item.place, fmt::format("measure \"{}\" stands twice in the list", to_string(kept.back())));
   }
@@ -176,15 +183,88 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
-/// Noise is drawn by simulate, one loop at a time; what a sweep keeps of it is exact.
-void refuse_noise(const Value::Table& table) {
-  for (const char* key : {"noise", "noise_kind", "seed", "seeds", "sampled"})
-    if (const Entry* entry = find(table, key))
-      throw InputError(
-          entry->place,
-          fmt::format("\"{}\": a sweep draws no noise; with the key \"sampling\" it keeps noise_gain, the exact "
-                      "RMS of u per RMS of noise, and portrait simulate --noise shows a setting under noise",
-                      key));
+std::int64_t whole_number_at_least(std::int64_t least, std::int64_t most, std::int64_t usual, const char* key,
+                                   const Value::Table& root) {
+  const Entry* entry = find(root, key);
+  if (!entry) return usual;
+  const std::int64_t value = whole_number_in(key, entry->value);
+  if (least <= value && value <= most) return value;
+  throw InputError(entry->value.place, fmt::format("\"{}\" must be {} .. {} (it is {})", key, least, most, value));
+}
+
+Noise::Kind noise_kind_in(const Value::Table& root) {
+  const Entry* entry = find(root, "noise_kind");
+  const Words names(kNoiseKindNames.begin(), kNoiseKindNames.end());
+  return entry ? thing_in("noise_kind", entry->value, noise_kind_named, names) : Noise::Kind::uniform;
+}
+
+constexpr std::int64_t kMostSeeds = 10'000;
+
+void refuse_sampled(const Value::Table& root) {
+  if (const Entry* sampled = find(root, "sampled"))
+    throw InputError(
+        sampled->place,
+        "\"sampled\": a sweep's controllers are continuous; portrait simulate --sampled runs one at the "
+        "sampling time");
+}
+
+/// What belongs to noise means nothing without it.
+void refuse_without_noise(const Value::Table& root) {
+  for (const char* key : {"noise_kind", "seed", "seeds"})
+    if (const Entry* entry = find(root, key))
+      throw InputError(entry->place,
+                       fmt::format("\"{}\" needs the key \"noise\", the amplitude of the noise", key));
+}
+
+/// So much is drawn once for all settings, and so many samples are held for those in hand.
+void check_size(const NoiseTrials& trials, Horizon horizon, const Place& place) {
+  const std::size_t samples = samples_up_to(horizon.dead_times, trials.noise.sampling);
+  if (samples > kernel::kMostNoiseSamples)
+    throw InputError(
+        place, fmt::format("\"noise\": horizon over sampling gives {} samples: a sweep takes at most {}", samples,
+                           kernel::kMostNoiseSamples));
+  if (samples * static_cast<std::size_t>(trials.seeds) > kernel::kMostNoiseValues)
+    throw InputError(place, fmt::format("\"noise\": {} samples for {} seeds: a sweep draws at most {} values",
+                                        samples, trials.seeds, kernel::kMostNoiseValues));
+}
+
+std::optional<NoiseTrials> noise_in(const Value::Table& root, const Grid& grid) {
+  const Entry* entry = find(root, "noise");
+  if (!entry) return refuse_without_noise(root), std::nullopt;
+  NoiseTrials trials;
+  trials.noise.amplitude = number_in("noise", entry->value);
+  if (!std::isfinite(trials.noise.amplitude) || trials.noise.amplitude <= 0)
+    throw InputError(entry->value.place, fmt::format("\"noise\" must be finite and above 0 (it is {})",
+                                                     number_text(trials.noise.amplitude)));
+  if (!grid.sampling)
+    throw InputError(entry->place,
+                     "\"noise\" needs the key \"sampling\": over how many dead times a value is held, as "
+                     "in sampling = 0.1");
+  if (grid.horizon.automatic)
+    throw InputError(entry->place, "\"noise\" needs a fixed horizon: TV of a noisy signal grows with it");
+  trials.noise.sampling = *grid.sampling;
+  trials.noise.kind = noise_kind_in(root);
+  trials.noise.seed = static_cast<std::uint64_t>(
+      whole_number_at_least(0, std::numeric_limits<std::int64_t>::max(), 1, "seed", root));
+  trials.seeds = static_cast<int>(whole_number_at_least(1, kMostSeeds, 1, "seeds", root));
+  check_size(trials, grid.horizon, entry->place);
+  return trials;
+}
+
+/// An ideal derivative makes an impulse of every value: neither the kernel nor the reference has a response to that.
+void check_noise_passes(const Value::Table& root, const Grid& grid) {
+  if (!grid.noise || grid.family.n > 0) return;
+  const auto is_derivative = [](Parameter p) { return p == Parameter::delta || p == Parameter::tau_d; };
+  const bool on_axis =
+      std::any_of(grid.axes.begin(), grid.axes.end(), [&](const Axis& a) { return is_derivative(a.parameter()); });
+  const bool fixed = std::any_of(grid.fixed.begin(), grid.fixed.end(), [&](const FixedParameter& f) {
+    return is_derivative(f.parameter) && f.value != 0;
+  });
+  if (on_axis || fixed)
+    throw InputError(
+        find(root, "noise")->place,
+        "\"noise\": the ideal derivative of n = 0 makes an impulse of every value; give the controller a "
+        "filter, n = 1 or more");
 }
 
 }  // namespace
@@ -192,17 +272,19 @@ void refuse_noise(const Value::Table& table) {
 Grid parse_grid(std::string text, std::string source_name) {
   const Value root = parse_toml(text, source_name);
   const auto& table = std::get<Value::Table>(root.content);
-  refuse_noise(table);
-  allow_only(table, {"title", "plant", "j", "n", "prefilter", "horizon", "sampling", "precision", "measures",
-                     "parameters"});
+  refuse_sampled(table);
+  allow_only(table, {"title", "plant", "j", "n", "prefilter", "horizon", "sampling", "noise", "noise_kind", "seed",
+                     "seeds", "precision", "measures", "parameters"});
   Grid grid;
   grid.title = title_in(table);
   grid.family = family_in(root);
   grid.horizon = horizon_in(root);
   grid.precision = precision_in(table);
   grid.sampling = sampling_in(table);
-  grid.measures = measures_in(table, grid.sampling.has_value());
+  grid.noise = noise_in(table, grid);
+  grid.measures = measures_in(table, grid);
   read_parameters(need(root, "parameters", "the table of fixed values and axes").value, grid);
+  check_noise_passes(table, grid);
   grid.text = std::move(text);
   return grid;
 }

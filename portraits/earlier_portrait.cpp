@@ -9,6 +9,7 @@
 #include "engine/base/version.h"
 #include "engine/base/words.h"
 #include "engine/sweep/method.h"
+#include "grids/sweep_job.h"
 #include "grids/tiling.h"
 #include "portraits/schema.h"
 
@@ -20,6 +21,13 @@ bool has(const std::vector<Measure>& measures, Measure measure) {
 }
 
 std::string sampling_text(const Grid& grid) { return grid.sampling ? number_text(*grid.sampling) : "none"; }
+
+std::string noise_text(const std::optional<NoiseTrials>& trials) {
+  if (!trials) return "none";
+  const Noise& n = trials->noise;
+  return fmt::format("{} of {} held over {}, {} seeds from {}", to_string(n.kind), number_text(n.amplitude),
+                     number_text(n.sampling), trials->seeds, n.seed);
+}
 
 /// What keeps the stored numbers from being those that would be computed, a line each; empty: nothing does.
 std::string what_differs(const PortraitReader& kept, const Grid& grid, const std::string& method) {
@@ -34,6 +42,8 @@ std::string what_differs(const PortraitReader& kept, const Grid& grid, const std
   compare("prefilter", word(before.family.prefilter), word(grid.family.prefilter));
   compare("horizon", schema::horizon_text(before.horizon), schema::horizon_text(grid.horizon));
   if (has(grid.measures, Measure::noise_gain)) compare("sampling", sampling_text(before), sampling_text(grid));
+  if (std::any_of(grid.measures.begin(), grid.measures.end(), is_noisy))
+    compare("noise", noise_text(before.noise), noise_text(grid.noise));
   if (before.precision == Precision::real32 && grid.precision == Precision::real64)
     compare("precision", "single", "double");
   compare("the program", kept.facts().program, program_version());
@@ -149,8 +159,7 @@ void EarlierPortrait::measure(Run run, const Box& box, MeasureColumns& columns) 
   std::vector<Setting> settings;
   for (const Wanted& wanted : run) settings.push_back(all[wanted.place]);
   std::vector<SettingMeasured> measured(settings.size());
-  measure_settings(method_for(grid_.measures), grid_.family, grid_.horizon,
-                   extras_for(grid_.measures, grid_.sampling), settings, measured);
+  measure_settings(method_for(grid_.measures), grid_.family, grid_.horizon, extras_for(grid_), settings, measured);
   for (std::size_t i = 0; i < run.size(); ++i) columns.set(run[i].place, measured[i].status, measured[i].measures);
 }
 

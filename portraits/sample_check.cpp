@@ -13,6 +13,7 @@
 
 #include "engine/loop/open_loop.h"
 #include "engine/sweep/method.h"
+#include "grids/sweep_job.h"
 
 namespace portrait {
 namespace {
@@ -29,7 +30,9 @@ bool is_place(Measure m) { return m == Measure::Ms_omega || m == Measure::Mt_ome
 
 /// TV_uw of "TV2_uw" and "u_max_w". Integrals of the error, classes and properties of the loop are judged by themselves.
 std::optional<Measure> variation_of_signal(Measure m) {
-  const std::string name(to_string(m));
+  std::string name(to_string(m));
+  for (const std::string_view of_noise : {"noisy_", "spread_"})
+    if (name.starts_with(of_noise)) return measure_named("noisy_TV_" + name.substr(name.rfind('_') + 1));
   if (name.starts_with("TV")) return measure_named("TV_" + name.substr(name.find('_') + 1));
   if (name.find("_max_") == std::string::npos) return std::nullopt;
   return measure_named("TV_" + name.substr(0, 1) + name.back());
@@ -90,7 +93,7 @@ Block stored_block(const ColumnSource& source, std::span<const std::uint64_t> nu
 }
 
 void simulate(const Grid& grid, Block& block, const SampleRequest& request, std::uint64_t before) {
-  const Extras extras = extras_for(grid.measures, grid.sampling);
+  const Extras extras = extras_for(grid);
   std::atomic<std::size_t> next = 0;
   const auto work = [&](bool tells) {
     for (std::size_t i = next++; i < block.numbers.size(); i = next++) {

@@ -13,7 +13,7 @@ namespace portrait::schema {
 
 /// A reader takes any file of its own major version. Minor: something was added. Patch: words only.
 inline constexpr int kMajor = 2;
-inline constexpr const char* kVersion = "2.1.0";
+inline constexpr const char* kVersion = "2.2.0";
 inline constexpr const char* kName = "portrait";
 
 inline constexpr const char* kStatus = "status";

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/words.h"
+#include "engine/kernel/noise.h"
 #include "portraits/digest.h"
 #include "portraits/plain_dataset.h"
 #include "portraits/schema.h"
@@ -24,6 +25,13 @@ std::string names_of(const Items& items, Name name) {
   return schema::names_text(names);
 }
 
+void write_noise(const h5::File& file, const NoiseTrials& trials) {
+  file.set_real("noise", trials.noise.amplitude);
+  file.set_text("noise_kind", std::string(to_string(trials.noise.kind)));
+  file.set_integer("noise_seed", static_cast<std::int64_t>(trials.noise.seed));
+  file.set_integer("noise_seeds", trials.seeds);
+}
+
 void write_family(const h5::File& file, const Grid& grid) {
   file.set_text("plant", std::string(to_string(grid.family.plant)));
   file.set_integer("n", grid.family.n);
@@ -32,6 +40,7 @@ void write_family(const h5::File& file, const Grid& grid) {
   file.set_text("prefilter", std::string(to_string(grid.family.prefilter)));
   file.set_text("horizon", schema::horizon_text(grid.horizon));
   if (grid.sampling) file.set_real("sampling", *grid.sampling);
+  if (grid.noise) write_noise(file, *grid.noise);
   file.set_text("precision", schema::precision_text(grid.precision));
 }
 
@@ -76,6 +85,35 @@ std::optional<double> read_sampling(const h5::File& file) {
   if (!std::isfinite(dead_times) || dead_times <= 0)
     broken(file, fmt::format("attribute sampling is {}", number_text(dead_times)));
   return dead_times;
+}
+
+/// Only portraits of a grid with noise have it.
+std::optional<NoiseTrials> read_noise(const h5::File& file, const std::optional<double>& sampling) {
+  if (!file.has("noise")) return std::nullopt;
+  NoiseTrials trials;
+  trials.noise.amplitude = file.real("noise");
+  trials.noise.kind = read_word(file, "noise_kind", noise_kind_named);
+  const std::int64_t seed = file.integer("noise_seed"), seeds = file.integer("noise_seeds");
+  if (!sampling) broken(file, "noise without sampling");
+  if (!std::isfinite(trials.noise.amplitude) || trials.noise.amplitude <= 0 || seed < 0 || seeds < 1 ||
+      seeds > static_cast<std::int64_t>(kernel::kMostNoiseValues))
+    broken(file, fmt::format("attributes noise, noise_seed, noise_seeds are {}, {}, {}",
+                             number_text(trials.noise.amplitude), seed, seeds));
+  trials.noise.sampling = *sampling;
+  trials.noise.seed = static_cast<std::uint64_t>(seed), trials.seeds = static_cast<int>(seeds);
+  return trials;
+}
+
+/// A reader may ask for the noisy measures again.
+void check_noise(const h5::File& file, const Grid& grid) {
+  if (!grid.noise) return;
+  const bool fits =
+      !grid.horizon.automatic &&
+      grid.horizon.dead_times / grid.noise->noise.sampling < static_cast<double>(kernel::kMostNoiseSamples) &&
+      samples_up_to(grid.horizon.dead_times, grid.noise->noise.sampling) *
+              static_cast<std::size_t>(grid.noise->seeds) <=
+          kernel::kMostNoiseValues;
+  if (!fits) broken(file, "its noise asks for more values than a sweep draws");
 }
 
 int order_in(const h5::File& file, const char* attribute) {
@@ -172,6 +210,7 @@ Grid read_grid(const h5::File& file) {
             .family = read_family(file),
             .horizon = read_word(file, "horizon", horizon_named),
             .sampling = read_sampling(file),
+            .noise = {},
             .precision = read_word(file, "precision", precision_named),
             .measures = read_measures(file),
             .axes = {},
@@ -181,6 +220,8 @@ Grid read_grid(const h5::File& file) {
     grid.axes.push_back(read_axis(file, grid.family, name));
   for (const std::string& name : schema::names_in(file.text("grid_fixed")))
     grid.fixed.push_back({read_parameter_name(file, grid.family, name), read_reals(file, name, 0).front()});
+  grid.noise = read_noise(file, grid.sampling);
+  check_noise(file, grid);
   check_count(file, grid);
   return grid;
 }

@@ -45,6 +45,15 @@ Json json_measure_names(const Grid& grid) {
 
 Json json_horizon(const Horizon& horizon) { return horizon.automatic ? Json("auto") : Json(horizon.dead_times); }
 
+Json json_noise(const Grid& grid) {
+  if (!grid.noise) return nullptr;
+  const Noise& noise = grid.noise->noise;
+  return {{"kind", to_string(noise.kind)},
+          {"amplitude", noise.amplitude},
+          {"seed", noise.seed},
+          {"seeds", grid.noise->seeds}};
+}
+
 void print_as_json(const Grid& grid, const Facts& facts) {
   print_json({{"settings", setting_count(grid)},
               {"axes", json_axes(grid)},
@@ -55,6 +64,7 @@ void print_as_json(const Grid& grid, const Facts& facts) {
               {"prefilter", to_string(grid.family.prefilter)},
               {"horizon", json_horizon(grid.horizon)},
               {"sampling", grid.sampling ? Json(*grid.sampling) : Json(nullptr)},
+              {"noise", json_noise(grid)},
               {"precision", grid.precision == Precision::real64 ? "double" : "single"},
               {"title", grid.title},
               {"state", facts.state},
@@ -78,12 +88,20 @@ std::string measures_text(const Grid& grid) {
   return joined(names);
 }
 
+std::string noise_text(const Grid& grid) {
+  const std::string held = fmt::format("noise held over {} dead times\n", number_text(*grid.sampling));
+  if (!grid.noise) return held;
+  const Noise& noise = grid.noise->noise;
+  return fmt::format("{} noise of {}, {} seeds from {}; {}", to_string(noise.kind), number_text(noise.amplitude),
+                     grid.noise->seeds, noise.seed, held);
+}
+
 void print_as_text(const Grid& grid, const Facts& facts) {
   std::string text = grid.title.empty() ? "" : grid.title + "\n";
   text += fmt::format("{}, n = {}, prefilter {}, horizon {}\n", to_string(grid.family.plant), grid.family.n,
                       to_string(grid.family.prefilter),
                       grid.horizon.automatic ? "auto" : number_text(grid.horizon.dead_times) + " dead times");
-  if (grid.sampling) text += fmt::format("noise held over {} dead times\n", number_text(*grid.sampling));
+  if (grid.sampling) text += noise_text(grid);
   text += fmt::format("{} settings\n", grouped(setting_count(grid)));
   for (const Axis& axis : grid.axes) text += axis_text(axis);
   for (const FixedParameter& p : grid.fixed)

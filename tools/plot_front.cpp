@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/sweep/method.h"
+#include "grids/sweep_job.h"
 #include "portraits/query/cloud.h"
 #include "tools/exit_codes.h"
 #include "tools/output.h"
@@ -42,8 +43,8 @@ pictures::Mark mark(const std::string& text, const ShownPortrait& shown, const E
   const Grid& grid = shown.grid();
   const auto named = named_loop(text, grid.family, fixed_setting(grid));
   SettingMeasured measured;
-  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid.measures, grid.sampling),
-                   {&named.loop.setting, 1}, {&measured, 1});
+  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid), {&named.loop.setting, 1},
+                   {&measured, 1});
   for (const Measure m : all_measures()) measured.measures[m] *= factor(m, shown.units);
   const auto at = [&](const Expression& e) {
     return value_at(e, named.loop.setting, measured.measures, shown.units);

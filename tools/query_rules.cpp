@@ -9,6 +9,7 @@
 #include "engine/base/words.h"
 #include "engine/rules/catalogue.h"
 #include "engine/sweep/method.h"
+#include "grids/sweep_job.h"
 
 namespace portrait::tools {
 namespace {
@@ -105,8 +106,8 @@ std::vector<std::string> off_axes(const Grid& grid, const Setting& setting) {
 
 void measure_rule(const Grid& grid, const Question& question, std::optional<double> optimum, RuleOnPortrait& r) {
   SettingMeasured found;
-  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid.measures, grid.sampling),
-                   {&r.setting, 1}, {&found, 1});
+  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid), {&r.setting, 1},
+                   {&found, 1});
   const Conditions& conditions = question.conditions;
   for (const Measure m : all_measures()) r.measures[m] = found.measures[m] * factor(m, conditions.units);
   r.status = found.status;

@@ -41,10 +41,11 @@ Asked asked(const SimulateArguments& a, const Units& units) {
   Asked found;
   found.noise.amplitude = above_zero("--noise", a.noise);
   found.noise.sampling = above_zero("--sampling", a.sampling) / units.time;
-  found.noise.kind = a.noise_kind == "gaussian" ? Noise::Kind::gaussian : Noise::Kind::uniform;
-  if (a.noise_kind != "gaussian" && a.noise_kind != "uniform")
+  const std::optional<Noise::Kind> kind = noise_kind_named(a.noise_kind);
+  if (!kind)
     throw InputError(fmt::format("--noise-kind: unknown word \"{}\"{}", a.noise_kind,
                                  suggestion(a.noise_kind, {"uniform", "gaussian"})));
+  found.noise.kind = *kind;
   found.noise.seed = a.seed, found.seeds = a.seeds, found.sampled = a.sampled;
   found.horizon = horizon_argument("--horizon", a.horizon).dead_times / units.time;
   if (found.horizon / found.noise.sampling >= static_cast<double>(reference::kMostSamples))
@@ -73,11 +74,8 @@ class Statistics {
 
  private:
   static Json of(const std::vector<double>& values) {
-    double mean = 0, square = 0;
-    for (const double x : values) mean += x / static_cast<double>(values.size());
-    for (const double x : values) square += (x - mean) * (x - mean);
-    const double spread = values.size() > 1 ? std::sqrt(square / static_cast<double>(values.size() - 1)) : kNaN;
-    return {{"mean", json_number(mean)}, {"spread", json_number(spread)}};
+    const MeanAndSpread found = mean_and_spread(values);
+    return {{"mean", json_number(found.mean)}, {"spread", json_number(found.spread)}};
   }
   std::vector<std::string> names_;
   std::map<std::string, std::vector<double>> values_;

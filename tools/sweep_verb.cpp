@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/sweep/sweep.h"
 #include "grids/grid_file.h"
+#include "grids/sweep_job.h"
 #include "grids/tiling.h"
 #include "tools/arguments.h"
 #include "tools/exit_codes.h"
@@ -42,7 +43,7 @@ docs/cluster.md says more.)";
 double seconds_a_setting(const Grid& grid, Method method) {
   using Clock = std::chrono::steady_clock;
   const std::size_t at_a_time = method == Method::kernel ? TileQueue::kSliceSettings : 1;  // as a sweep does
-  const Extras extras = extras_for(grid.measures, grid.sampling);
+  const Extras extras = extras_for(grid);
   const std::uint64_t count = setting_count(grid), samples = std::min<std::uint64_t>(count, 4096);
   const auto begin = Clock::now();
   std::uint64_t done = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/kernel/margins.inl"
+#include "engine/kernel/noise.inl"
 #include "engine/kernel/run_pack.inl"
 
 #define PORTRAIT_TEXT_OF(name) #name
@@ -11,6 +12,7 @@
 namespace portrait::PORTRAIT_ISA_NAME {
 
 extern const kernel::Implementation kImplementation;
-const kernel::Implementation kImplementation = {PORTRAIT_TEXT(PORTRAIT_ISA_NAME), kLanes, run, find_margins};
+const kernel::Implementation kImplementation = {PORTRAIT_TEXT(PORTRAIT_ISA_NAME), kLanes, run, find_margins,
+                                               run_noise};
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

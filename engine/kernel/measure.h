@@ -8,12 +8,14 @@
 
 #include <span>
 
-#include "engine/kernel/responses.h"
+#include "engine/kernel/noise.h"
 
 namespace portrait::kernel {
 
-/// Without `with_margins` those that would be searched one by one are left NaN. REQUIRES: settings valid; as many results.
+/// Without `with_margins` those that would be searched one by one are left NaN; with `noise`, drawn for this horizon, there are
+/// the noisy measures too. REQUIRES: settings valid; as many results.
 void measure(const Implementation& implementation, const LoopFamily& family, Horizon horizon,
-             std::span<const Setting> settings, std::span<Measured> results, bool with_margins = true);
+             std::span<const Setting> settings, std::span<Measured> results, bool with_margins = true,
+             const DrawnNoise* noise = nullptr);
 
 }  // namespace portrait::kernel

@@ -42,6 +42,13 @@ constexpr int panels_of(const Mesh& mesh) { return (mesh.graded + 1) << mesh.hal
 
 using PackColumn = double[kMaxLanes];
 
+/// Where a pack's signals go at the instants k Ts, k = 0 .. count - 1: a row of kMaxLanes an instant.
+struct PackSamples {
+  double sampling;  ///< dead times
+  int count;
+  double *y_w, *u_w, *y_d, *u_d;
+};
+
 struct Pack {
   PlantKind plant;
   int n;  ///< filter order
@@ -61,6 +68,8 @@ struct Pack {
   int m;                        ///< derivatives in the controller; n = 0: one, of the output
   int lags, integrators;        ///< of the plant
   PackColumn gains[kMaxGains];  ///< K_-1, K_0, ...
+
+  const PackSamples* samples;  ///< null: none are taken
 };
 
 /// One step's measures.
@@ -77,6 +86,30 @@ struct PackResult {
   PackColumn tail;         ///< largest last coefficients as a part of the signal: how far from resolved
   PackColumn smooth_tail;  ///< the same from `smooth_from` on
   PackColumn dead_times;   ///< simulated
+};
+
+/// Sampled responses of a pack, and noise for it: engine/kernel/noise.inl.
+struct NoisePack {
+  int samples, size;  ///< of the transform, a power of 2 not below 2 samples - 1
+  int seeds;
+  const double *loop_y, *loop_u;        ///< after a setpoint step without prefilter, a row an instant
+  const double *y_w, *u_w, *y_d, *u_d;  ///< of the loop itself
+  PackColumn y_rest_w, u_rest_w, y_rest_d, u_rest_d;
+  const double* turns;    ///< cos and -sin of 2 pi i/size, i = 0 .. size/2 - 1
+  const double* spectra;  ///< of each seed's noise, over size, as NoiseSeries::transform leaves them
+  double* work;           ///< two series: 4 size kMaxLanes numbers
+};
+
+/// Of one seed: TV, TV0, TV1, TV2 of y and u after w, of y and u after d; and the sum of squares of the noise's part of u over
+/// the second half of the instants.
+struct NoiseTrial {
+  PackColumn shapes[16];
+  PackColumn u_squares;
+};
+
+struct NoiseResult {
+  PackColumn expected;  ///< sqrt(sum g_j^2) of u
+  NoiseTrial* trials;   ///< one for each seed
 };
 
 /// Open loops, all with integral action or all without.
@@ -101,6 +134,7 @@ struct Implementation {
   int lanes;  ///< settings a pack holds
   void (*run)(const Pack&, PackResult&);
   void (*find_margins)(const MarginPack&, MarginResult&);
+  void (*run_noise)(const NoisePack&, NoiseResult&);
 };
 
 }  // namespace portrait::kernel

@@ -181,12 +181,14 @@ struct Task {
 class Measurement {
  public:
   Measurement(const Implementation& implementation, const LoopFamily& family, std::span<const Setting> settings,
-              Horizon horizon, std::span<Measured> results)
+              Horizon horizon, std::span<Measured> results, SampledResponses* samples)
       : implementation_(implementation),
         family_(family),
         settings_(settings),
         horizon_(horizon),
-        results_(results) {
+        results_(results),
+        samples_(samples) {
+    if (samples) rows_.resize(SampledResponses::kSignals * samples->count() * kMaxLanes);
     tasks_.reserve(settings.size());
     for (Measured& m : results) m.measures.clear();
     for (std::size_t i = 0; i < settings.size(); ++i) tasks_.push_back({i, kind_of(family, settings[i], horizon)});
@@ -220,6 +222,8 @@ class Measurement {
     for (std::size_t lane = 0; lane < kMaxLanes; ++lane)
       fill_lane(pack, lane, {family_, settings_[tasks[std::min(lane, tasks.size() - 1)].setting]});
     PackResult result;
+    const PackSamples into = rows_of_samples();
+    if (samples_) pack.samples = &into;
     implementation_.run(pack, result);
     for (std::size_t lane = 0; lane < tasks.size(); ++lane) take_result(tasks[lane], pack, result, lane);
   }
@@ -227,10 +231,28 @@ class Measurement {
   void take_result(const Task& task, const Pack& pack, const PackResult& result, std::size_t lane) {
     Measured& m = results_[task.setting];
     fill(m, pack, result, lane, horizon_.automatic);
+    if (samples_ && m.resolved) take_samples(task.setting, lane);
     if (!m.resolved)
       try_finer(task, result.tail[lane] <= kResolved);
     else if (horizon_.automatic && m.status == Status::not_settled && pack.horizon < kHorizonCap)
       try_longer(task);
+  }
+
+  double* rows_of(int signal) {
+    return rows_.data() + static_cast<std::size_t>(signal) * samples_->count() * kMaxLanes;
+  }
+
+  PackSamples rows_of_samples() {
+    if (!samples_) return {};
+    return {samples_->sampling(),           static_cast<int>(samples_->count()), rows_of(SampledResponses::kYw),
+            rows_of(SampledResponses::kUw), rows_of(SampledResponses::kYd),      rows_of(SampledResponses::kUd)};
+  }
+
+  void take_samples(std::size_t setting, std::size_t lane) {
+    for (int signal = 0; signal < SampledResponses::kSignals; ++signal) {
+      const std::span<double> to = samples_->of(setting, static_cast<SampledResponses::Signal>(signal));
+      for (std::size_t k = 0; k < to.size(); ++k) to[k] = rows_of(signal)[k * kMaxLanes + lane];
+    }
   }
 
   void try_finer(Task task, bool all_but_smooth_part) {
@@ -252,14 +274,18 @@ class Measurement {
   Horizon horizon_;
   std::span<Measured> results_;
   std::vector<Task> tasks_;
+  SampledResponses* samples_;
+  std::vector<double> rows_;  ///< of a pack
 };
 
 }  // namespace
 
 void measure_responses(const Implementation& implementation, const LoopFamily& family,
-                       std::span<const Setting> settings, Horizon horizon, std::span<Measured> results) {
+                       std::span<const Setting> settings, Horizon horizon, std::span<Measured> results,
+                       SampledResponses* samples) {
   PORTRAIT_CHECK_EQ(settings.size(), results.size());
-  Measurement(implementation, family, settings, horizon, results).run();
+  PORTRAIT_CHECK(!samples || !horizon.automatic);
+  Measurement(implementation, family, settings, horizon, results, samples).run();
 }
 
 }  // namespace portrait::kernel

@@ -11,7 +11,9 @@
 ///           variation: tests/engine/kernel/responses_test.cpp
 #pragma once
 
+#include <array>
 #include <span>
+#include <vector>
 
 #include "engine/base/status.h"
 #include "engine/kernel/pack.h"
@@ -28,8 +30,33 @@ struct Measured {
   bool resolved = false;  ///< false: not even the finest panels resolve this setting, and nothing here counts
 };
 
-/// REQUIRES: settings valid and stable; as many results.
+/// The signals of many settings at the instants k Ts: limits from the right.
+class SampledResponses {
+ public:
+  enum Signal { kYw, kUw, kYd, kUd, kSignals };
+
+  SampledResponses(double sampling, std::size_t count, std::size_t settings)
+      : sampling_(sampling), count_(count), values_(settings * kSignals * count) {}
+
+  double sampling() const { return sampling_; }
+  std::size_t count() const { return count_; }
+  std::span<double> of(std::size_t setting, Signal signal) {
+    return std::span(values_).subspan((setting * kSignals + signal) * count_, count_);
+  }
+  std::span<const double> of(std::size_t setting, Signal signal) const {
+    return std::span(values_).subspan((setting * kSignals + signal) * count_, count_);
+  }
+
+ private:
+  double sampling_;
+  std::size_t count_;
+  std::vector<double> values_;
+};
+
+/// `samples`, where it is given, takes those of every setting that is resolved; the measures have the same bits with it as
+/// without. REQUIRES: settings valid and stable; as many results; with samples, a fixed horizon.
 void measure_responses(const Implementation& implementation, const LoopFamily& family,
-                       std::span<const Setting> settings, Horizon horizon, std::span<Measured> results);
+                       std::span<const Setting> settings, Horizon horizon, std::span<Measured> results,
+                       SampledResponses* samples = nullptr);
 
 }  // namespace portrait::kernel

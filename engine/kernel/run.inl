@@ -14,6 +14,7 @@
 #pragma once
 
 #include "engine/kernel/cascade.inl"
+#include "engine/kernel/sampler.inl"
 #include "engine/kernel/setpoint.inl"
 #include "engine/kernel/step_meters.inl"
 
@@ -23,6 +24,20 @@ using kernel::Pack;
 using kernel::PackResult;
 using kernel::PlantKind;
 using kernel::SetpointRun;
+
+/// Of y or u after w or d. REQUIRES: the pack has samples.
+inline Sampler sampler_of(const Pack& pack, bool of_w, bool of_y) {
+  const kernel::PackSamples& s = *pack.samples;
+  double* const to = of_w ? (of_y ? s.y_w : s.u_w) : (of_y ? s.y_d : s.u_d);
+  const double* const rest = of_w ? (of_y ? pack.y_rest_w : pack.u_rest_w) : (of_y ? pack.y_rest_d : pack.u_rest_d);
+  return {s, to, of_w ? scale_of_setpoint(pack) : Lanes(1.0), Lanes::from(rest)};
+}
+
+/// Before the first dead time has passed the plant is at rest, and after d the controller too.
+inline void begin_samples(const Pack& pack) {
+  sampler_of(pack, true, true).begin(1), sampler_of(pack, true, false).begin(0);
+  sampler_of(pack, false, true).begin(1), sampler_of(pack, false, false).begin(1);
+}
 
 /// One closed loop per lane: driven by d = 1, which through the identity gives both responses, or by the setpoint alone.
 template <PlantKind plant, bool filtered, bool disturbed>
@@ -43,8 +58,8 @@ class Run {
 
   /// Feeds the meters of one step, or of both, up to the horizon.
   void to_horizon() {
-    // u_w is seen one dead time late.
-    const int simulated = span_.intervals + (both_ ? 1 : 0);
+    // u_w is seen one dead time late; an instant at the horizon belongs to the dead time after it.
+    const int simulated = span_.intervals + (both_ ? 1 : 0) + (pack_.samples ? 1 : 0);
     if (sees_nothing_at_first()) first_interval();
     for (int k = sees_nothing_at_first() ? 1 : 0; k < simulated && any(active_); ++k) {
       if (k == pack_.layered_intervals) leave_layers();
@@ -137,6 +152,7 @@ class Run {
     for (int p = 0; p < panel_count_; ++p) {
       chain_.run_plant_alone(panels_[p], outputs_[p]);
       watch_output<kDegree>(1, p, false);
+      if (pack_.samples) sample_output<kDegree>(0, p);
       const double half = panels_[p].half;
       if (both_) w_.e.watch({chain_.sum, Lanes(0.0), chain_.of_sum}, panels_[p].start + half, half, active_);
     }
@@ -149,6 +165,7 @@ class Run {
     for (int p = 0; p < panel_count_; ++p) {
       advance<degree>(k, p);
       watch<degree>(k, p);
+      if (pack_.samples) sample<degree>(k, p);
     }
     dead_times = select(active_, Lanes(k + 1.0), dead_times);
     if (looks(k)) rest_when_quiet();
@@ -236,6 +253,24 @@ class Run {
     add_scaled(u_, tau_1, y1_);
     add_scaled(u1_, tau_1, y2_);
   }
+
+  /// The instants of all signals that the panel gives.
+  template <int degree>
+  __attribute__((noinline)) void sample(int k, int p) {
+    const double start = panels_[p].start, half = panels_[p].half;
+    chain_.template complete_input<degree>(panels_[p], outputs_[p]);
+    sample_output<degree>(k, p);
+    sampler(!disturbed, false).template take<degree>(input_signal(p), k + start, half, active_);
+    if (!both_) return;
+    sampler(true, true).template take<degree>(derived_output_signal(), k + start, half, active_);
+    if (k > 0) sampler(true, false).template take<degree>(derived_input_signal(), k - 1 + start, half, active_);
+  }
+  template <int degree>
+  void sample_output(int k, int p) {
+    sampler(!disturbed, true)
+        .template take<degree>(output_signal(p), k + 1 + panels_[p].start, panels_[p].half, active_);
+  }
+  Sampler sampler(bool of_w, bool of_y) const { return sampler_of(pack_, of_w, of_y); }
 
   /// A panel inside the response, where no meter does anything but watch.
   template <int degree>

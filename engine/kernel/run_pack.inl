@@ -28,6 +28,7 @@ void run_family(const Pack& pack, PackResult& result) {
   Lanes dead_times = 0.0;
   w.begin(Lanes::from(pack.y_rest_w), Lanes::from(pack.u_rest_w), 1, scale_of_setpoint(pack), queues);
   d.begin(Lanes::from(pack.y_rest_d), Lanes::from(pack.u_rest_d), 0, 1.0, queues);
+  if (pack.samples) begin_samples(pack);
   run_step<plant, filtered, true>(pack, w, d, dead_times);
   if (pack.setpoint_run != SetpointRun::from_disturbance) run_step<plant, filtered, false>(pack, w, d, dead_times);
   dead_times.to(result.dead_times);

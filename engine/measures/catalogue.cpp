@@ -24,6 +24,12 @@ constexpr std::string_view kItaeOfY = "integral of t |y| from 0 to the horizon";
 constexpr std::string_view kItseOfY = "integral of t y^2 from 0 to the horizon";
 constexpr std::string_view kClass =
     "number of extremes alternately above and below x(inf) by more than 1 % of the largest deviation from it";
+constexpr std::string_view kNoisy =
+    "mean over the seeds of the measure of this name, of the signal at the instants k Ts; noise grows with the "
+    "step";
+constexpr std::string_view kSpread = "standard deviation over the seeds of what stands before it";
+constexpr std::string_view kSigma =
+    "mean over the seeds of the RMS of u per RMS of the noise, at the instants of the second half of the horizon";
 
 constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
     {"IAE_w", "integral of absolute error, setpoint step", kIae, Unit::output_time, 'w'},
@@ -127,6 +133,68 @@ constexpr std::array<MeasureInfo, kMeasureCount> kMeasures = {{
     {"DC_ud", "dynamic class of u, disturbance step", kClass, Unit::one, 'd'},
     {"DC_yo", "dynamic class of y, output step", kClass, Unit::one, 'o'},
     {"DC_uo", "dynamic class of u, output step", kClass, Unit::one, 'o'},
+    {"noisy_TV_yw", "mean total variation of y under noise, setpoint step", kNoisy, Unit::output, 'w'},
+    {"spread_TV_yw", "spread of the total variation of y under noise, setpoint step", kSpread, Unit::output, 'w'},
+    {"noisy_TV0_yw", "mean deviation of y from monotonicity under noise, setpoint step", kNoisy, Unit::output, 'w'},
+    {"spread_TV0_yw", "spread of the deviation of y from monotonicity under noise, setpoint step", kSpread,
+     Unit::output, 'w'},
+    {"noisy_TV1_yw", "mean deviation of y from a one-pulse shape under noise, setpoint step", kNoisy, Unit::output,
+     'w'},
+    {"spread_TV1_yw", "spread of the deviation of y from a one-pulse shape under noise, setpoint step", kSpread,
+     Unit::output, 'w'},
+    {"noisy_TV2_yw", "mean deviation of y from a two-pulse shape under noise, setpoint step", kNoisy, Unit::output,
+     'w'},
+    {"spread_TV2_yw", "spread of the deviation of y from a two-pulse shape under noise, setpoint step", kSpread,
+     Unit::output, 'w'},
+    {"noisy_TV_uw", "mean total variation of u under noise, setpoint step", kNoisy, Unit::input, 'w'},
+    {"spread_TV_uw", "spread of the total variation of u under noise, setpoint step", kSpread, Unit::input, 'w'},
+    {"noisy_TV0_uw", "mean deviation of u from monotonicity under noise, setpoint step", kNoisy, Unit::input, 'w'},
+    {"spread_TV0_uw", "spread of the deviation of u from monotonicity under noise, setpoint step", kSpread,
+     Unit::input, 'w'},
+    {"noisy_TV1_uw", "mean deviation of u from a one-pulse shape under noise, setpoint step", kNoisy, Unit::input,
+     'w'},
+    {"spread_TV1_uw", "spread of the deviation of u from a one-pulse shape under noise, setpoint step", kSpread,
+     Unit::input, 'w'},
+    {"noisy_TV2_uw", "mean deviation of u from a two-pulse shape under noise, setpoint step", kNoisy, Unit::input,
+     'w'},
+    {"spread_TV2_uw", "spread of the deviation of u from a two-pulse shape under noise, setpoint step", kSpread,
+     Unit::input, 'w'},
+    {"noisy_TV_yd", "mean total variation of y under noise, disturbance step", kNoisy, Unit::output, 'd'},
+    {"spread_TV_yd", "spread of the total variation of y under noise, disturbance step", kSpread, Unit::output,
+     'd'},
+    {"noisy_TV0_yd", "mean deviation of y from monotonicity under noise, disturbance step", kNoisy, Unit::output,
+     'd'},
+    {"spread_TV0_yd", "spread of the deviation of y from monotonicity under noise, disturbance step", kSpread,
+     Unit::output, 'd'},
+    {"noisy_TV1_yd", "mean deviation of y from a one-pulse shape under noise, disturbance step", kNoisy,
+     Unit::output, 'd'},
+    {"spread_TV1_yd", "spread of the deviation of y from a one-pulse shape under noise, disturbance step", kSpread,
+     Unit::output, 'd'},
+    {"noisy_TV2_yd", "mean deviation of y from a two-pulse shape under noise, disturbance step", kNoisy,
+     Unit::output, 'd'},
+    {"spread_TV2_yd", "spread of the deviation of y from a two-pulse shape under noise, disturbance step", kSpread,
+     Unit::output, 'd'},
+    {"noisy_TV_ud", "mean total variation of u under noise, disturbance step", kNoisy, Unit::input, 'd'},
+    {"spread_TV_ud", "spread of the total variation of u under noise, disturbance step", kSpread, Unit::input, 'd'},
+    {"noisy_TV0_ud", "mean deviation of u from monotonicity under noise, disturbance step", kNoisy, Unit::input,
+     'd'},
+    {"spread_TV0_ud", "spread of the deviation of u from monotonicity under noise, disturbance step", kSpread,
+     Unit::input, 'd'},
+    {"noisy_TV1_ud", "mean deviation of u from a one-pulse shape under noise, disturbance step", kNoisy,
+     Unit::input, 'd'},
+    {"spread_TV1_ud", "spread of the deviation of u from a one-pulse shape under noise, disturbance step", kSpread,
+     Unit::input, 'd'},
+    {"noisy_TV2_ud", "mean deviation of u from a two-pulse shape under noise, disturbance step", kNoisy,
+     Unit::input, 'd'},
+    {"spread_TV2_ud", "spread of the deviation of u from a two-pulse shape under noise, disturbance step", kSpread,
+     Unit::input, 'd'},
+    {"sigma_ratio", "mean amplification of the noise that is drawn", kSigma, Unit::input_per_output, '-'},
+    {"spread_sigma_ratio", "spread of the amplification of the noise that is drawn", kSpread,
+     Unit::input_per_output, '-'},
+    {"expected_sigma_ratio", "expected amplification of noise at the instants",
+     "RMS of u at the instants k Ts, just after the noise has changed, per RMS of the noise: exact, no noise is "
+     "drawn",
+     Unit::input_per_output, '-'},
 }};
 
 }  // namespace

@@ -109,8 +109,44 @@ enum class Measure {
   DC_ud,
   DC_yo,
   DC_uo,
+  // Under noise, over several seeds: engine/loop/noise.h.
+  noisy_TV_yw,
+  spread_TV_yw,
+  noisy_TV0_yw,
+  spread_TV0_yw,
+  noisy_TV1_yw,
+  spread_TV1_yw,
+  noisy_TV2_yw,
+  spread_TV2_yw,
+  noisy_TV_uw,
+  spread_TV_uw,
+  noisy_TV0_uw,
+  spread_TV0_uw,
+  noisy_TV1_uw,
+  spread_TV1_uw,
+  noisy_TV2_uw,
+  spread_TV2_uw,
+  noisy_TV_yd,
+  spread_TV_yd,
+  noisy_TV0_yd,
+  spread_TV0_yd,
+  noisy_TV1_yd,
+  spread_TV1_yd,
+  noisy_TV2_yd,
+  spread_TV2_yd,
+  noisy_TV_ud,
+  spread_TV_ud,
+  noisy_TV0_ud,
+  spread_TV0_ud,
+  noisy_TV1_ud,
+  spread_TV1_ud,
+  noisy_TV2_ud,
+  spread_TV2_ud,
+  sigma_ratio,
+  spread_sigma_ratio,
+  expected_sigma_ratio,
 };
-inline constexpr std::size_t kMeasureCount = 93;
+inline constexpr std::size_t kMeasureCount = 128;
 /// The first of them, which a portrait keeps when nothing else is asked for.
 inline constexpr std::size_t kStandardMeasureCount = 37;
 
@@ -153,6 +189,17 @@ constexpr std::array<Measure, kStandardMeasureCount> standard_measures() {
   return standard;
 }
 constexpr bool is_standard(Measure measure) { return static_cast<std::size_t>(measure) < kStandardMeasureCount; }
+
+inline constexpr std::size_t kNoisyMeasureCount = 35;
+
+/// Those that noise is drawn for: the last of the catalogue. With the mean over seeds always stands its spread, after it.
+constexpr std::array<Measure, kNoisyMeasureCount> noisy_measures() {
+  std::array<Measure, kNoisyMeasureCount> noisy{};
+  for (std::size_t i = 0; i < noisy.size(); ++i)
+    noisy[i] = static_cast<Measure>(kMeasureCount - kNoisyMeasureCount + i);
+  return noisy;
+}
+constexpr bool is_noisy(Measure measure) { return measure >= Measure::noisy_TV_yw; }
 
 /// One value per measure; NaN where the measure does not exist for the loop.
 class MeasureRow {

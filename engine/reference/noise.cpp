@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include <unsupported/Eigen/FFT>
 
@@ -13,19 +12,6 @@
 
 namespace portrait::reference {
 namespace {
-
-/// SplitMix64: every bit of the result depends on every bit of x.                                      [Steele2014]
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// In (0, 1).
-double uniform(std::uint64_t seed, std::uint64_t k) {
-  return (static_cast<double>(mixed(mixed(seed) ^ k) >> 11) + 0.5) * 0x1p-53;
-}
 
 /// g_0 = h_0, g_j = h_j - h_(j-1)
 std::vector<double> increments(std::vector<double> h) {
@@ -78,15 +64,6 @@ double measure_signal(std::vector<double> x, double at_rest, std::array<double, 
 
 }  // namespace
 
-double Noise::sigma() const { return kind == Kind::uniform ? amplitude / std::sqrt(3.0) : amplitude; }
-
-double noise_value(const Noise& noise, std::uint64_t k) {
-  if (noise.kind == Noise::Kind::uniform) return noise.amplitude * (2 * uniform(noise.seed, k) - 1);
-  // Box and Muller: two uniform numbers make two normal ones, of which one is used.
-  const double radius = std::sqrt(-2 * std::log(uniform(noise.seed, 2 * k)));
-  return noise.amplitude * radius * std::cos(2 * std::numbers::pi * uniform(noise.seed, 2 * k + 1));
-}
-
 Sampled sampled(const StepResponse& response, double sampling, std::size_t samples) {
   const Piece& last = response.pieces.back();
   const double end = last.start + last.length;
@@ -128,7 +105,7 @@ double noise_gain(const Response& response, double sampling) {
 NoiseAnswer::NoiseAnswer(const Response& response, double sampling, double horizon) {
   PORTRAIT_CHECK(sampling > 0 && horizon / sampling < static_cast<double>(kMostSamples));
   PORTRAIT_CHECK(!response.steps[kOutputStep].pieces.empty());
-  samples_ = static_cast<std::size_t>(std::floor(horizon / sampling * (1 + 1e-12))) + 1;
+  samples_ = samples_up_to(horizon, sampling);
   Sampled h = sampled(response.steps[kOutputStep], sampling, samples_);
   for (double& y : h.y) y -= 1;  // the measured output moves, the plant's own does not
   u_taps_ = increments(std::move(h.u));
@@ -160,6 +137,52 @@ NoisyMeasures noisy_measures(const StepResponse& response, const NoiseAnswer& an
   found.TV_y = measure_signal(std::move(signals.y), response.at_rest.y, found.TVm_y);
   found.sigma_ratio = std::sqrt(mean_square(u_noise) / mean_square(drawn));
   return found;
+}
+
+namespace {
+
+/// sigma of what noise adds to u over that of the noise, both of the second half of the instants.
+double sigma_ratio_late(std::span<const double> u, const Noise& noise) {
+  double of_u = 0, of_n = 0;
+  for (std::size_t k = u.size() / 2; k < u.size(); ++k) {
+    const double n = noise_value(noise, k);
+    of_u += u[k] * u[k], of_n += n * n;
+  }
+  return std::sqrt(of_u / of_n);
+}
+
+/// TV, TV0, TV1, TV2.
+void add_shapes(std::vector<double> x, std::span<const double> noise, double at_rest, std::vector<double>& to) {
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += noise[k];
+  std::array<double, 9> TVm{};
+  to.push_back(measure_signal(std::move(x), at_rest, TVm));
+  to.insert(to.end(), TVm.begin(), TVm.begin() + 3);
+}
+
+}  // namespace
+
+void measure_noise(const Loop& loop, const NoiseTrials& trials, double horizon, MeasureRow& row) {
+  const Response r = simulate(loop, Horizon::until_settled(), {}, kAllSteps);
+  const NoiseAnswer answer(r, trials.noise.sampling, horizon);
+  std::vector<std::vector<double>> found;  // by seed, in the order of the catalogue
+  for (int i = 0; i < trials.seeds; ++i) {
+    const Noise noise = trial(trials, i);
+    const std::vector<double> u = answer.u(noise), y = answer.y(noise);
+    std::vector<double>& values = found.emplace_back();
+    for (const Step step : kUsualSteps) {
+      Sampled s = sampled(r.steps[step], noise.sampling, answer.samples());
+      add_shapes(std::move(s.y), y, r.steps[step].at_rest.y, values);
+      add_shapes(std::move(s.u), u, r.steps[step].at_rest.u, values);
+    }
+    values.push_back(sigma_ratio_late(u, noise));
+  }
+  std::vector<double> over_seeds(found.size());
+  for (std::size_t m = 0; m < found.front().size(); ++m) {
+    for (std::size_t i = 0; i < found.size(); ++i) over_seeds[i] = found[i][m];
+    const MeanAndSpread both = mean_and_spread(over_seeds);
+    row[portrait::noisy_measures()[2 * m]] = both.mean, row[portrait::noisy_measures()[2 * m + 1]] = both.spread;
+  }
+  row[Measure::expected_sigma_ratio] = answer.u_sigma_ratio();
 }
 
 }  // namespace portrait::reference

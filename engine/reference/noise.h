@@ -17,23 +17,14 @@
 #include <span>
 #include <vector>
 
+#include "engine/loop/noise.h"
+#include "engine/measures/catalogue.h"
 #include "engine/reference/response.h"
 
 namespace portrait::reference {
 
-struct Noise {
-  enum class Kind { uniform, gaussian };
-  Kind kind = Kind::uniform;
-  double amplitude = 0;  ///< uniform: in (-amplitude, amplitude); gaussian: standard deviation
-  double sampling = 0;   ///< in units of time of the loop
-  std::uint64_t seed = 1;
-
-  /// Of one value.
-  double sigma() const;
-};
-
-/// The k-th value: a hash of seed and k, so it depends on nothing else and any thread may make any part.
-double noise_value(const Noise& noise, std::uint64_t k);
+using portrait::Noise;
+using portrait::noise_value;
 
 inline constexpr std::size_t kMostSamples = 4'000'000;
 
@@ -77,6 +68,9 @@ struct Sampled {
   std::vector<double> y, u;
 };
 Sampled sampled(const StepResponse& response, double sampling, std::size_t samples);
+
+/// The noisy measures of the catalogue, over all seeds. REQUIRES: the loop is valid, stable and its controller proper.
+void measure_noise(const Loop& loop, const NoiseTrials& trials, double horizon, MeasureRow& row);
 
 /// Measures of one noisy step response: those of the sampled signals, from x(0-) = 0 on.
 struct NoisyMeasures {

@@ -5,6 +5,7 @@
 /// errors    std::runtime_error with the command that reproduces the setting
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,12 +46,18 @@ Method method_for(std::span<const Measure> measures);
 /// What is measured only where it is asked for; its measures are NaN otherwise.
 struct Extras {
   std::optional<double> sampling = std::nullopt;  ///< dead times over which noise is held, for noise_gain
+  std::shared_ptr<const kernel::DrawnNoise> noise =
+      nullptr;                                    ///< for the noisy measures; of the horizon that is asked for
   bool output_step = false;                       ///< the measures of the step o
   bool margins =
       true;  ///< Ms to DM; without them a family whose margins are searched one by one is many times faster
 };
 /// What these measures need of them.
-Extras extras_for(std::span<const Measure> measures, std::optional<double> sampling);
+Extras extras_for(std::span<const Measure> measures, std::optional<double> sampling,
+                  const std::optional<NoiseTrials>& noise, Horizon horizon);
+
+/// The controller passes on no impulses: its noise can be simulated.
+bool is_proper(const Loop& loop);
 
 /// REQUIRES: settings valid; as many results.
 void measure_settings(Method method, const LoopFamily& family, Horizon horizon, const Extras& extras,

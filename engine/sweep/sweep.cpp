@@ -37,13 +37,8 @@ bool keeps(const std::vector<Measure>& measures, Measure measure) {
 class Worker {
  public:
   Worker(const SweepJob& job, TileQueue& queue, FirstFailure& failure, std::mutex& progress,
-         std::atomic<std::uint64_t>& left_over)
-      : job_(job),
-        queue_(queue),
-        failure_(failure),
-        progress_(progress),
-        left_over_(left_over),
-        extras_(extras_for(job.measures, job.sampling)) {}
+         std::atomic<std::uint64_t>& left_over, const Extras& extras)
+      : job_(job), queue_(queue), failure_(failure), progress_(progress), left_over_(left_over), extras_(extras) {}
 
   /// An exception must not leave a parallel region.
   void run() {
@@ -86,7 +81,7 @@ class Worker {
   FirstFailure& failure_;
   std::mutex& progress_;
   std::atomic<std::uint64_t>& left_over_;
-  Extras extras_;
+  const Extras& extras_;
   std::vector<SettingMeasured> measured_;  ///< of the slice in hand
 };
 
@@ -97,14 +92,16 @@ int usual_threads() { return omp_get_max_threads(); }
 SweepOutcome sweep(const SweepJob& job) {
   PORTRAIT_CHECK(!why_not_measured(job.method, job.measures));
   PORTRAIT_CHECK(job.sampling || !keeps(job.measures, Measure::noise_gain));
+  PORTRAIT_CHECK(job.noise || std::none_of(job.measures.begin(), job.measures.end(), is_noisy));
   const auto begin = std::chrono::steady_clock::now();
   const int threads = job.threads > 0 ? job.threads : usual_threads();
   TileQueue queue(job.measures, job.tile_count, job.settings_of, job.prepare);
   FirstFailure failure;
   std::mutex progress;
   std::atomic<std::uint64_t> left_over = 0;
+  const Extras extras = extras_for(job.measures, job.sampling, job.noise, job.horizon);
 #pragma omp parallel num_threads(threads)
-  Worker(job, queue, failure, progress, left_over).run();
+  Worker(job, queue, failure, progress, left_over, extras).run();
   failure.rethrow();
 
   SweepOutcome outcome;

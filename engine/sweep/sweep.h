@@ -27,6 +27,8 @@ struct SweepJob {
   LoopFamily family;
   Horizon horizon;
   std::optional<double> sampling;  ///< dead times over which noise is held, for noise_gain
+  std::optional<NoiseTrials> noise =
+      std::nullopt;  ///< for the noisy measures; then the horizon is fixed and every controller proper
   Method method = Method::kernel;
   std::vector<Measure> measures;  ///< kept ones, in catalogue order
   std::uint64_t tile_count = 0;

@@ -1,6 +1,7 @@
 #include "portraits/query/measured.h"
 
 #include "engine/sweep/method.h"
+#include "grids/sweep_job.h"
 #include "portraits/query/workers.h"
 
 namespace portrait {
@@ -9,8 +10,7 @@ namespace {
 void measure_part(const Grid& grid, const QueryUnits& units, std::span<const Setting> settings,
                   std::span<Measured> into) {
   std::vector<SettingMeasured> found(settings.size());
-  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid.measures, grid.sampling),
-                   settings, found);
+  measure_settings(method_for(grid.measures), grid.family, grid.horizon, extras_for(grid), settings, found);
   for (std::size_t i = 0; i < settings.size(); ++i) {
     into[i] = {settings[i], found[i].status, found[i].measures, units.plant};
     for (const Measure measure : grid.measures) into[i].measures[measure] *= factor(measure, units);

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "engine/base/error.h"
 #include "engine/loop/noise_gain.h"
 #include "engine/sweep/method.h"
 #include "portraits/query/workers.h"
@@ -58,14 +61,19 @@ PlantTrials::PlantTrials(const Grid& grid, const PlantBox& box, const Expression
   }
   for (const Quantity quantity : used_)
     if (const Measure* measure = std::get_if<Measure>(&quantity)) measures_.push_back(*measure);
+  for (const Measure measure : measures_)
+    if (is_noisy(measure))
+      throw InputError(
+          fmt::format("{}: noise is drawn for one plant; over a box of plants ask for noise_gain, which is exact",
+                      to_string(measure)));
 }
 
 PlantTrials::Ran PlantTrials::run(std::span<const Trial> trials) const {
   Ran ran{trials, {}, std::vector<SettingMeasured>(trials.size()), {}, {}};
   for (const Trial& trial : trials)
     ran.settings.push_back(seen_by(trial.plant, {grid_.family, trial.setting}, box_.nominal));
-  measure_settings(method_for(measures_), grid_.family, grid_.horizon, extras_for(measures_, std::nullopt),
-                   ran.settings, ran.found);
+  measure_settings(method_for(measures_), grid_.family, grid_.horizon,
+                   extras_for(measures_, std::nullopt, std::nullopt, grid_.horizon), ran.settings, ran.found);
   ran.columns.count = trials.size();
   for (const Quantity quantity : used_) {
     std::vector<double>& column = ran.columns[quantity];

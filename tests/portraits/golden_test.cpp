@@ -17,7 +17,7 @@ std::filesystem::path golden(const std::string& version) {
 }
 
 class ReadGolden : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Formats, ReadGolden, ::testing::Values("2.0.0", "2.1.0"));
+INSTANTIATE_TEST_SUITE_P(Formats, ReadGolden, ::testing::Values("2.0.0", "2.1.0", "2.2.0"));
 
 TEST_P(ReadGolden, ValueByValue) {
   PortraitReader portrait(golden(GetParam()));

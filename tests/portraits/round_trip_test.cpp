@@ -163,7 +163,7 @@ TEST_F(RoundTrip, FactsOfTheRun) {
   EXPECT_EQ(facts.history, facts.date_created + " portrait sweep sample.toml");
   EXPECT_EQ(facts.method, "sample");
   EXPECT_EQ(facts.state, "complete");
-  EXPECT_EQ(facts.schema_version, "2.1.0");
+  EXPECT_EQ(facts.schema_version, "2.2.0");
   EXPECT_EQ(facts.wall_seconds, 1.5);
   EXPECT_EQ(facts.threads, 2);
 }

@@ -10,6 +10,7 @@
 
 #include "engine/sweep/method.h"
 #include "grids/grid_file.h"
+#include "grids/sweep_job.h"
 #include "portraits/reader.h"
 #include "portraits/verify.h"
 #include "portraits/writer.h"
@@ -32,7 +33,7 @@ class SampleCheck : public ScratchTest {
   void write(const Change& change = [](MeasureColumns&) {}) {
     const auto settings = settings_in(grid_, Tiling(grid_).box(0));
     std::vector<SettingMeasured> measured(settings.size());
-    measure_settings(Method::kernel, grid_.family, grid_.horizon, extras_for(grid_.measures, grid_.sampling), settings, measured);
+    measure_settings(Method::kernel, grid_.family, grid_.horizon, extras_for(grid_), settings, measured);
     MeasureColumns columns(grid_.measures, settings.size());
     for (std::size_t i = 0; i < settings.size(); ++i) columns.set(i, measured[i].status, measured[i].measures);
     change(columns);

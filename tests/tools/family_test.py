@@ -105,7 +105,6 @@ class Families(program.ProgramTest):
         self.refused(GAINS_GRID.replace("K_0 = { from = 0.6, to = 1.2, count = 4 }\n", ""), "the proportional gain")
         self.refused(GAINS_GRID.replace('plant = "jotd"', 'plant = "tf"'), 'unknown plant "tf"')
         self.refused(GAINS_GRID + "K_7 = 1\n", 'unknown key "K_7"')
-        self.refused("noise = 0.1\n" + GAINS_GRID, 'family.toml:1:1: "noise": a sweep draws no noise; with the key "sampling" it keeps noise_gain')
         self.swept(GAINS_GRID)
         asked = self.run_program("query", "family.h5", "--minimize", "IAE_w", "--plant", "K=2,Td=3,Tj=2.4")
         self.assertEqual(asked.code, 2)
