@@ -106,8 +106,8 @@ void ConnectionThreads::work() {
     if (waiting_.empty()) return;
     const std::function<void()> connection = std::move(waiting_.front());
     waiting_.pop_front();
-    // Whoever waits behind this one shall not wait for clients that say nothing.
-    if (idle_ == 0 && !waiting_.empty()) open_.end_longest_waiting();
+    // Whoever waits behind this one shall not wait for clients that say nothing. Below the limit a thread comes for them.
+    if (idle_ == 0 && !waiting_.empty() && threads_.size() == kMaxConnections) open_.end_longest_waiting();
     changed_.notify_all();
     lock.unlock();
     connection();
@@ -172,7 +172,7 @@ httplib::Server::HandlerResponse LoopbackServer::admit(const httplib::Request& r
   return HandlerResponse::Handled;
 }
 
-bool LoopbackServer::process_and_close_socket(socket_t socket) {
+bool LoopbackServer::talk(int socket) {
   open_.opened(socket);
   current_socket = socket;
   Connection connection(socket);
