@@ -5,6 +5,7 @@
 #undef PORTRAIT_ISA_NAME
 #define PORTRAIT_ISA_NAME counted
 #include "bench/counted_lanes.inl"
+#include "engine/kernel/cascade_margins.inl"
 #include "engine/kernel/margins.inl"
 #include "engine/kernel/noise.inl"
 #include "engine/kernel/run_pack.inl"
@@ -12,7 +13,8 @@
 namespace portrait::counted {
 
 extern const kernel::Implementation kImplementation;
-const kernel::Implementation kImplementation = {"counted", kLanes, run, find_margins, run_noise};
+const kernel::Implementation kImplementation = {"counted", kLanes, run, find_margins, find_cascade_margins,
+                                                run_noise};
 
 long operations_so_far() { return operations; }
 

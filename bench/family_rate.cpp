@@ -2,10 +2,9 @@
 ///
 /// What a sweep of many lags under a controller given by its gains is worth against the plain step loop that anyone would
 /// write for it: jotd of order 3, controllers of K_-1 .. K_3 with the filter of order 3, tau_f = 0.1, horizon 51, 2,400
-/// settings, both steps and all measures but noise_gain; then without
-/// margins, which are searched one by one. The plain loop takes 200 steps a dead time (with 50 its many lags
-/// add up to a delay that moves IAE by more than 10 %), lags by their exact exponential, and leaves margins and shapes out: it gives IAE
-/// and TV. Its answers are compared first, to 5 %.
+/// settings, both steps and all measures but noise_gain; then without margins. The plain loop takes 200 steps a dead time
+/// (with 50 its many lags add up to a delay that moves IAE by more than 10 %), lags by their exact exponential, and leaves
+/// margins and shapes out: it gives IAE and TV. Its answers are compared first, to 5 %.
 ///
 /// And what a sweep under noise is: dipdt, PID, n = 1, five seeds, a value held over 0.1 dead times, TV of u at the instants; the plain
 /// loop runs every seed and step anew. One thread; medians of interleaved repetitions.

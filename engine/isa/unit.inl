@@ -2,6 +2,7 @@
 /// -m flags of these files stand in engine/CMakeLists.txt and nowhere else.
 #pragma once
 
+#include "engine/kernel/cascade_margins.inl"
 #include "engine/kernel/margins.inl"
 #include "engine/kernel/noise.inl"
 #include "engine/kernel/run_pack.inl"
@@ -13,6 +14,6 @@ namespace portrait::PORTRAIT_ISA_NAME {
 
 extern const kernel::Implementation kImplementation;
 const kernel::Implementation kImplementation = {PORTRAIT_TEXT(PORTRAIT_ISA_NAME), kLanes, run, find_margins,
-                                               run_noise};
+                                               find_cascade_margins, run_noise};
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

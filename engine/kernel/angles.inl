@@ -1,7 +1,7 @@
 /// Sine, cosine and angles in lanes.
 ///
 /// Taylor's series after a reduction of the argument that makes them short: no coefficient but 1/n! and 1/(2n + 1).
-/// domain    |x| below 1e5 for sine and cosine
+/// domain    |x| below kLargestAngle for sine and cosine
 /// accuracy  some 1e-16, of 1 for sine and cosine, of the value for angles
 #pragma once
 
@@ -10,6 +10,7 @@
 namespace portrait::PORTRAIT_ISA_NAME {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kLargestAngle = 1e5;
 
 /// (-1)^n/(2n + 1)! and (-1)^n/(2n)!: to |x| = pi/2 the next term is 1e-17.
 inline constexpr int kSineTerms = 11;

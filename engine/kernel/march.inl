@@ -12,12 +12,23 @@
 namespace portrait::PORTRAIT_ISA_NAME {
 
 /// Frequencies below which what is named holds, as x = omega^2.
-struct Limits {
+class Limits {
+ public:
   Lanes leads;   ///< arg L stays above -pi
   Lanes damped;  ///< |L/(1 + L)| stays below 1
 
-  explicit Limits(const OpenLoopLanes& loop) : leads(leading(loop)), damped(0.0) {
+  explicit Limits(const OpenLoopLanes& loop) : leads(leading(loop)), damped(0.0), loop_(loop) {
     if (loop.integrators == 1) damped = damping(loop);
+  }
+
+  /// Lanes in which no |L/(1 + L)| below x matters, 1/sqrt(T_square) being seen: it stays below 1, or, with |M| as free to
+  /// choose as it likes in what `damping` compares, below 1/sqrt(1 - w^2 (lags - a/(1 + a^2 w^2))^2).
+  Mask damp(Lanes x, Lanes T_square, double tolerance) const {
+    const Mask known = x < damped;
+    if (loop_.integrators != 1) return known;
+    const Lanes a = loop_.n1 / loop_.n0, z = mul_add(a * a, x, Lanes(1.0));
+    const Lanes lag = max(Lanes(0.0), mul_add(loop_.lags, z, -a));
+    return known | !(x * lag * lag > (Lanes(1 + tolerance) - T_square) * z * z);
   }
 
  private:
@@ -42,6 +53,8 @@ struct Limits {
     const Lanes x = min((Lanes(1.0) - square) / (square * a * a), loop.n0 / loop.n2);
     return select(square < Lanes(1.0), x, Lanes(0.0));
   }
+
+  const OpenLoopLanes& loop_;
 };
 
 /// The largest of a function's values so far, as the least square of a distance from -1, and its place.
@@ -55,6 +68,8 @@ struct Peak {
   }
 };
 
+/// Of loops with one gain crossover or none. OpenLoop, Gain and Limits as those of margins.inl.
+template <class OpenLoop, class Gain, class Limits>
 class March {
  public:
   Peak S, T;
@@ -62,7 +77,7 @@ class March {
       gain_below;  ///< |L| where arg L = -pi: the largest below 1, the smallest above; 0 and inf: none
   Mask given_up = Mask::from(0);
 
-  March(const OpenLoopLanes& loop, const Gain& gain) : loop_(loop), gain_(gain), limits_(loop) {
+  March(const OpenLoop& loop, const Gain& gain, const Limits& limits) : loop_(loop), gain_(gain), limits_(limits) {
     const Lanes end = gain.end(), room = Lanes(1.0) - end;
     S = {room * room, Lanes(kInfinity)};
     T = {Lanes(1.0), Lanes(0.0)};
@@ -70,11 +85,8 @@ class March {
     T.offer(squared(room / end), Lanes(kInfinity), end > Lanes(0.0));
     S_seen_ = S.square, T_seen_ = T.square;
     gain_above = end, gain_below = kInfinity, above_seen_ = end * end;
-    lowest_ = loop.integrators == 0 ? lowest(loop) : Lanes(0.0);
+    lowest_ = loop.integrators == 0 ? loop.rest() : Lanes(0.0);
   }
-
-  /// Below this L is what it is at rest, for a loop without integrator.
-  static Lanes lowest(const OpenLoopLanes& loop) { return Lanes(1e-3) / (loop.lags + loop.n1 / loop.n0); }
 
   /// From omega, up in some lanes, down in others.
   void run(Lanes omega, Mask up, Mask down) {
@@ -86,7 +98,7 @@ class March {
       if (any(upper.open)) step_up(upper);
       if (any(lower.open)) step_down(lower);
     }
-    given_up = given_up | upper.open | lower.open;
+    given_up = given_up | upper.open | lower.open | (up & (upper.here.omega > Lanes(kLargestAngle)));
     narrow_down(all_lanes());
   }
 
@@ -218,7 +230,7 @@ class March {
     const Lanes enough = room * room * Lanes(1 + kTolerance);
     const Mask above = gain > Lanes(1.0), falls = gain_.falls_up_to(x);
     const Mask S_done = above & !(enough < S_seen_);
-    const Mask T_done = (above & !(enough < T_seen_ * p.square)) | is_damped(x);
+    const Mask T_done = (above & !(enough < T_seen_ * p.square)) | limits_.damp(x, T_seen_, kTolerance);
     const Mask gain_done =
         below_.here | (gain_below < Lanes(kInfinity)) | !(x > limits_.leads) | (gain > Lanes(1e12));
     const Mask peaks_done = falls & S_done & T_done;
@@ -233,16 +245,6 @@ class March {
     const Lanes step = min(pace / size(side.here.s), most * side.here.omega);
     side.step = select(mask, step, side.step);
     side.pace = select(mask, pace, side.pace);
-  }
-
-  /// Lanes in which no |L/(1 + L)| below matters: it stays below 1, or, with |M| as free to choose as it likes in what
-  /// Limits::damping compares, below 1/sqrt(1 - w^2 (lags - a/(1 + a^2 w^2))^2).
-  Mask is_damped(Lanes x) const {
-    const Mask damped = x < limits_.damped;
-    if (loop_.integrators != 1) return damped;
-    const Lanes a = loop_.n1 / loop_.n0, z = mul_add(a * a, x, Lanes(1.0));
-    const Lanes lag = max(Lanes(0.0), mul_add(loop_.lags, z, -a));
-    return damped | !(x * lag * lag > (Lanes(1 + kTolerance) - T_seen_) * z * z);
   }
 
   void look_between(const Point& a, const Point& b, Mask mask) {
@@ -333,11 +335,21 @@ class March {
     S_dip_.forget(lanes), T_dip_.forget(lanes), above_.forget(lanes), below_.forget(lanes);
   }
 
-  const OpenLoopLanes& loop_;
+  const OpenLoop& loop_;
   const Gain& gain_;
-  Limits limits_;
+  const Limits& limits_;
   Lanes lowest_, S_seen_, T_seen_, above_seen_;
   Bracket S_dip_, T_dip_, above_, below_;
 };
+
+inline Lanes flags(Mask mask) { return select(mask, Lanes(1.0), Lanes(0.0)); }
+
+template <class March>
+void store_margins(const March& march, kernel::MarginResult& result) {
+  (Lanes(1.0) / sqrt(march.S.square)).to(result.Ms), march.S.omega.to(result.Ms_omega);
+  (Lanes(1.0) / sqrt(march.T.square)).to(result.Mt), march.T.omega.to(result.Mt_omega);
+  (Lanes(1.0) / march.gain_above).to(result.GM);
+  (Lanes(1.0) / march.gain_below).to(result.GM_low);
+}
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -3,9 +3,8 @@
 #include <array>
 
 #include "engine/base/check.h"
+#include "engine/kernel/cascade_margins.h"
 #include "engine/kernel/resolution.h"
-#include "engine/loop/loop_measures.h"
-#include "engine/loop/stability.h"
 
 namespace portrait::kernel {
 namespace {
@@ -21,20 +20,8 @@ LoopMargins margins_of(const MarginResult& found, std::size_t lane) {
   LoopMargins m;
   m.stable = found.stable[lane] > 0;
   if (!m.stable) return m;
-  m.measures[Measure::Ms] = found.Ms[lane], m.measures[Measure::Ms_omega] = found.Ms_omega[lane];
-  m.measures[Measure::Mt] = found.Mt[lane], m.measures[Measure::Mt_omega] = found.Mt_omega[lane];
-  m.measures[Measure::GM] = found.GM[lane], m.measures[Measure::GM_low] = found.GM_low[lane];
+  take_lane(found, lane, m.measures);
   m.measures[Measure::PM] = found.PM[lane], m.measures[Measure::DM] = found.DM[lane];
-  return m;
-}
-
-LoopMargins one_by_one(const Loop& loop, bool wanted = true) {
-  LoopMargins m;
-  m.stable = is_stable(open_loop(loop));
-  if (!m.stable || !wanted) return m;
-  MeasureRow all;
-  measure_loop(loop, std::nullopt, all);
-  for (const Measure measure : kMarginMeasures) m.measures[measure] = all[measure];
   return m;
 }
 
@@ -44,17 +31,12 @@ class Search {
          std::span<LoopMargins> results)
       : implementation_(implementation), family_(family), settings_(settings), results_(results) {}
 
-  void run(bool wanted) {
-    if (plant_kind(family_) == PlantKind::cascade) return find_one_by_one(wanted);
+  void run() {
     find_alike(false);
     find_alike(true);
   }
 
  private:
-  void find_one_by_one(bool wanted) {
-    for (std::size_t i = 0; i < settings_.size(); ++i) results_[i] = one_by_one({family_, settings_[i]}, wanted);
-  }
-
   void find_alike(bool integral) {
     pack_.plant = plant_kind(family_), pack_.n = family_.n, pack_.integral = integral;
     for (std::size_t i = 0; i < settings_.size(); ++i) {
@@ -73,7 +55,7 @@ class Search {
     implementation_.find_margins(pack_, found);
     for (std::size_t lane = 0; lane < filled_; ++lane) {
       const std::size_t i = which_[lane];
-      results_[i] = found.known[lane] > 0 ? margins_of(found, lane) : one_by_one({family_, settings_[i]});
+      results_[i] = found.known[lane] > 0 ? margins_of(found, lane) : margins_one_by_one({family_, settings_[i]});
     }
     filled_ = 0;
   }
@@ -92,7 +74,10 @@ class Search {
 void find_margins(const Implementation& implementation, const LoopFamily& family, std::span<const Setting> settings,
                   std::span<LoopMargins> results, bool wanted) {
   PORTRAIT_CHECK_EQ(settings.size(), results.size());
-  Search(implementation, family, settings, results).run(wanted);
+  if (plant_kind(family) == PlantKind::cascade)
+    find_cascade_margins(implementation, family, settings, results, wanted);
+  else
+    Search(implementation, family, settings, results).run();
 }
 
 }  // namespace portrait::kernel

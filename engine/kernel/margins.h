@@ -45,7 +45,7 @@ struct LoopMargins {
   MarginRow measures;  ///< of a stable loop; else NaN
 };
 
-/// Families of many lags or of gains are searched one by one, and only for stability where margins are not `wanted`.
+/// Families of many lags or of gains are searched only for stability where margins are not `wanted`.
 /// REQUIRES: settings valid; as many results.
 void find_margins(const Implementation& implementation, const LoopFamily& family, std::span<const Setting> settings,
                   std::span<LoopMargins> results, bool wanted = true);

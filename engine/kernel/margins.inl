@@ -10,15 +10,6 @@
 
 namespace portrait::PORTRAIT_ISA_NAME {
 
-inline Lanes flags(Mask mask) { return select(mask, Lanes(1.0), Lanes(0.0)); }
-
-inline void store_margins(const March& march, kernel::MarginResult& result) {
-  (Lanes(1.0) / sqrt(march.S.square)).to(result.Ms), march.S.omega.to(result.Ms_omega);
-  (Lanes(1.0) / sqrt(march.T.square)).to(result.Mt), march.T.omega.to(result.Mt_omega);
-  (Lanes(1.0) / march.gain_above).to(result.GM);
-  (Lanes(1.0) / march.gain_below).to(result.GM_low);
-}
-
 inline void find_margins(const kernel::MarginPack& pack, kernel::MarginResult& result) {
   const OpenLoopLanes loop(pack);
   const Gain gain(loop);
@@ -27,8 +18,9 @@ inline void find_margins(const kernel::MarginPack& pack, kernel::MarginResult& r
   const Mask bounded = gain.end() < Lanes(1.0), unbounded = !bounded;
   const Mask once = bounded & gain.crosses_once(), never = bounded & gain.never_crosses();
   const Mask stable = (but_not(once, lost) & (room > Lanes(0.0))) | never;
-  March march(loop, gain);
-  if (any(stable)) march.run(select(once, crossover, March::lowest(loop)), stable, stable & once);
+  const Limits limits(loop);
+  March march(loop, gain, limits);
+  if (any(stable)) march.run(select(once, crossover, loop.rest()), stable, stable & once);
   flags(but_not(unbounded | once | never, march.given_up | (once & lost))).to(result.known);
   flags(stable).to(result.stable);
   const Lanes degrees = (Lanes(kPi) - abs(phase)) * Lanes(180 / kPi);

@@ -17,6 +17,35 @@ inline Lanes power(Lanes x, int n) {
   return p;
 }
 
+/// L and its logarithm's slope s = L'/L.
+struct LoopAt {
+  Complex L, s;
+  Lanes inverse_square;  ///< 1/|L|^2
+};
+
+/// s' and s'' as well.
+struct LoopCloseAt {
+  LoopAt at;
+  Complex s1, s2;
+};
+
+/// Takes `count` equal lags into L: lag = 1/(1 + j tau w), square = 1/|lag|^2.
+inline void multiply_lag(LoopAt& a, Lanes tau, Complex lag, Lanes square, int count) {
+  for (int i = 0; i < count; ++i) {
+    a.L = a.L * lag;
+    a.inverse_square = a.inverse_square * square;
+  }
+  const Lanes times = Lanes(static_cast<double>(count)) * tau;
+  a.s = {mul_add(times, lag.im, a.s.re), mul_sub_from(times, lag.re, a.s.im)};
+}
+
+inline void bend_by_lag(LoopCloseAt& close, Lanes tau, Complex lag, int count) {
+  const Complex lag2 = lag * lag, lag3 = lag2 * lag;
+  const Lanes square = Lanes(static_cast<double>(count)) * tau * tau, twice = Lanes(2.0) * tau * square;
+  close.s1 = {mul_sub_from(square, lag2.re, close.s1.re), mul_sub_from(square, lag2.im, close.s1.im)};
+  close.s2 = {mul_sub_from(twice, lag3.im, close.s2.re), mul_add(twice, lag3.re, close.s2.im)};
+}
+
 class OpenLoopLanes {
  public:
   explicit OpenLoopLanes(const kernel::MarginPack& pack)
@@ -33,24 +62,12 @@ class OpenLoopLanes {
     lags = mul_add(Lanes(static_cast<double>(filters)), tau_f, Lanes(1.0) + tau_1);
   }
 
-  /// L and its logarithm's slope s = L'/L.
-  struct At {
-    Complex L, s;
-    Lanes inverse_square;  ///< 1/|L|^2
-  };
+  LoopAt at(Lanes omega) const { return at(parts_at(omega)); }
 
-  /// s' and s'' as well.
-  struct CloseAt {
-    At at;
-    Complex s1, s2;
-  };
-
-  At at(Lanes omega) const { return at(parts_at(omega)); }
-
-  CloseAt close_at(Lanes omega) const {
+  LoopCloseAt close_at(Lanes omega) const {
     const Parts p = parts_at(omega);
     const Complex bend = (Lanes(-2.0) * n2 * p.inverse_N) * conjugate(p.N), g1 = bend + -(p.g * p.g);
-    CloseAt close{at(p), g1, -(p.g * (bend + Lanes(2.0) * g1))};
+    LoopCloseAt close{at(p), g1, -(p.g * (bend + Lanes(2.0) * g1))};
     const Lanes k = static_cast<double>(integrators), period2 = p.period * p.period;
     close.s1.re = mul_add(k, period2, close.s1.re);
     close.s2.re = mul_sub_from(Lanes(2.0) * k, period2 * p.period, close.s2.re);
@@ -73,6 +90,9 @@ class OpenLoopLanes {
     if (filters > 1) phase = mul_sub_from(Lanes(static_cast<double>(filters)), arc_tangent(tau_f * omega), phase);
     return phase + angle(turned.re, turned.im);
   }
+
+  /// Below this omega L is what it is at rest, without integrator.
+  Lanes rest() const { return Lanes(1e-3) / (lags + n1 / n0); }
 
   int integrators;
   bool has_lag;
@@ -107,9 +127,9 @@ class OpenLoopLanes {
 
   static Complex lag_of(Lanes t, Lanes inverse_square) { return {inverse_square, -(t * inverse_square)}; }
 
-  At at(const Parts& p) const {
+  LoopAt at(const Parts& p) const {
     const SineCosine turn = sine_cosine(p.omega);
-    At a;
+    LoopAt a;
     a.L = p.N * Complex{turn.cosine, -turn.sine};
     a.s = {mul_sub_from(Lanes(static_cast<double>(integrators)), p.period, p.g.re), p.g.im - Lanes(1.0)};
     a.inverse_square = p.inverse_N;
@@ -120,23 +140,6 @@ class OpenLoopLanes {
     if (has_lag) multiply_lag(a, tau_1, p.lag, p.lag_square, 1);
     if (filters > 0) multiply_lag(a, tau_f, p.filter, p.filter_square, filters);
     return a;
-  }
-
-  /// times lag^count
-  static void multiply_lag(At& a, Lanes tau, Complex lag, Lanes square, int count) {
-    for (int i = 0; i < count; ++i) {
-      a.L = a.L * lag;
-      a.inverse_square = a.inverse_square * square;
-    }
-    const Lanes times = Lanes(static_cast<double>(count)) * tau;
-    a.s = {mul_add(times, lag.im, a.s.re), mul_sub_from(times, lag.re, a.s.im)};
-  }
-
-  static void bend_by_lag(CloseAt& close, Lanes tau, Complex lag, int count) {
-    const Complex lag2 = lag * lag, lag3 = lag2 * lag;
-    const Lanes square = Lanes(static_cast<double>(count)) * tau * tau, twice = Lanes(2.0) * tau * square;
-    close.s1 = {mul_sub_from(square, lag2.re, close.s1.re), mul_sub_from(square, lag2.im, close.s1.im)};
-    close.s2 = {mul_sub_from(twice, lag3.im, close.s2.re), mul_add(twice, lag3.re, close.s2.im)};
   }
 };
 

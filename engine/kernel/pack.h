@@ -121,6 +121,21 @@ struct MarginPack {
   PackColumn kappa, tau_i, delta, tau_1, tau_f;
 };
 
+/// Open loops of one family of many lags or of gains, stable ones, each with one gain crossover or none, and what is known of
+/// |L| over x = omega^2.
+struct CascadeMarginPack {
+  int degree;                       ///< of N = c_0 + c_1 s + ..., c_0 above 0
+  int integrators, lags, filters;   ///< of the open loop, the controller's integrator included
+  PackColumn numerator[kMaxGains];  ///< c_0, c_1, ...
+  PackColumn lag, tau_f;
+  PackColumn rest;                  ///< omega below which L is what it is at rest
+  PackColumn leads;                 ///< x up to which arg L stays above -pi
+  PackColumn crossover;             ///< omega; 0: |L| stays below 1
+  PackColumn rises_from, rises_to;  ///< |L| falls up to the one and from the other on; inf: all the way; never
+  PackColumn top;                   ///< at least |L|^2 between the two
+  PackColumn end;                   ///< |L| at infinity
+};
+
 /// Of an unstable loop everything but the first two is undefined; inf and 0 as in engine/measures/catalogue.h.
 struct MarginResult {
   PackColumn known;  ///< 0 where the loop may cross |L| = 1 more than once, or the search was given up; else 1
@@ -134,6 +149,7 @@ struct Implementation {
   int lanes;  ///< settings a pack holds
   void (*run)(const Pack&, PackResult&);
   void (*find_margins)(const MarginPack&, MarginResult&);
+  void (*find_cascade_margins)(const CascadeMarginPack&, MarginResult&);  ///< all but PM, DM and `stable`
   void (*run_noise)(const NoisePack&, NoiseResult&);
 };
 

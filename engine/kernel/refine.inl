@@ -30,7 +30,7 @@ struct Bracket {
 struct Expansion {
   Complex X, X1, X2, X3;
 
-  Expansion(const OpenLoopLanes::CloseAt& close, bool inverted) {
+  Expansion(const LoopCloseAt& close, bool inverted) {
     const Lanes sign = inverted ? -1.0 : 1.0;
     const Complex s = sign * close.at.s, s1 = sign * close.s1, s2 = sign * close.s2, square = s * s;
     X = inverted ? close.at.inverse_square * conjugate(close.at.L) : close.at.L;
@@ -80,7 +80,8 @@ class Nearest : public Narrowing {
 
   Nearest(const Bracket& b, bool inverted) : Narrowing(b), inverted_(inverted) {}
 
-  void step(const OpenLoopLanes& loop) {
+  template <class OpenLoop>
+  void step(const OpenLoop& loop) {
     const Expansion x(loop.close_at(place), inverted_);
     const Complex near = {Lanes(1.0) + x.X.re, x.X.im};
     const Lanes moved = norm(x.X1), value = norm(near);
@@ -106,7 +107,8 @@ class Crossing : public Narrowing {
 
   explicit Crossing(const Bracket& b) : Narrowing(b), rises_(b.rises) {}
 
-  void step(const OpenLoopLanes& loop) {
+  template <class OpenLoop>
+  void step(const OpenLoop& loop) {
     const Expansion x(loop.close_at(place), false);
     const Mask is_low = (rises_ & (x.X.im < Lanes(0.0))) | but_not(x.X.im > Lanes(0.0), rises_);
     const Lanes last = Lanes(kLast) * norm(x.X);

@@ -58,9 +58,15 @@ double lag_left(const OpenLoop& loop, double omega) {
 
 Margins margins(const OpenLoop& loop) {
   PORTRAIT_CHECK(high_frequency_gain(loop) < 1);
-  Margins found{.gain = 1 / high_frequency_gain(loop), .gain_low = 0, .phase_deg = kInf, .delay = kInf};
   const std::vector<double> crossovers = gain_crossovers(loop);
+  const PhaseMargins turn = phase_margins(loop, crossovers);
+  Margins found{1 / high_frequency_gain(loop), 0, turn.phase_deg, turn.delay};
   for (const Interval& interval : monotonic_intervals(loop, crossovers)) take_gain_margin(loop, interval, found);
+  return found;
+}
+
+PhaseMargins phase_margins(const OpenLoop& loop, const std::vector<double>& crossovers) {
+  PhaseMargins found{kInf, kInf};
   for (const double omega : crossovers) {
     const double lag = lag_left(loop, omega);
     found.phase_deg = std::min(found.phase_deg, std::min(lag, 2 * pi - lag) * 180 / pi);

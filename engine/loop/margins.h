@@ -29,4 +29,10 @@ struct Margins {
 /// REQUIRES: the loop is stable.
 Margins margins(const OpenLoop& loop);
 
+/// `phase_deg` and `delay` alone, which the gain crossovers settle.
+struct PhaseMargins {
+  double phase_deg, delay;
+};
+PhaseMargins phase_margins(const OpenLoop& loop, const std::vector<double>& crossovers);
+
 }  // namespace portrait

@@ -7,10 +7,11 @@
 
 namespace portrait {
 
-int unstable_roots(const OpenLoop& loop) {
+int unstable_roots(const OpenLoop& loop) { return unstable_roots(loop, gain_crossovers(loop)); }
+
+int unstable_roots(const OpenLoop& loop, const std::vector<double>& crossovers) {
   PORTRAIT_CHECK(high_frequency_gain(loop) < 1);
   // |L| ends below 1: seen from the highest crossover down, it falls and rises by turns.
-  const std::vector<double> crossovers = gain_crossovers(loop);
   bool falls = true;
   int turns = 0;
   for (auto omega = crossovers.rbegin(); omega != crossovers.rend(); ++omega) {
@@ -24,10 +25,12 @@ int unstable_roots(const OpenLoop& loop) {
   return unstable_poles(loop) - of_sign - 2 * turns;
 }
 
-bool is_stable(const OpenLoop& loop) {
+bool is_stable(const OpenLoop& loop) { return is_stable(loop, gain_crossovers(loop)); }
+
+bool is_stable(const OpenLoop& loop, const std::vector<double>& crossovers) {
   // L = -1 at rest is a root at 0.
   if (loop.gain < 0 && low_frequency_gain(loop) == 1) return false;
-  return high_frequency_gain(loop) < 1 && unstable_roots(loop) == 0;
+  return high_frequency_gain(loop) < 1 && unstable_roots(loop, crossovers) == 0;
 }
 
 }  // namespace portrait

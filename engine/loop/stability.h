@@ -25,4 +25,8 @@ int unstable_roots(const OpenLoop& loop);
 /// Every root in the open left half-plane; a neutral loop uniformly so.
 bool is_stable(const OpenLoop& loop);
 
+/// The same where gain_crossovers(loop) are known.
+int unstable_roots(const OpenLoop& loop, const std::vector<double>& crossovers);
+bool is_stable(const OpenLoop& loop, const std::vector<double>& crossovers);
+
 }  // namespace portrait

@@ -102,30 +102,11 @@ TEST_P(HardMargins, FewLoopsAreLeftOver) {
   EXPECT_LT(left_over, kLoops / 200);
 }
 
-/// To 1e-12: distances from -1 and angles of 1 and pi, places where the peak is not level relative to themselves.
 TEST(InstructionSets, GiveTheSameMargins) {
   const auto sets = available_implementations();
   if (sets.size() < 2) GTEST_SKIP() << "this machine has one instruction set";
   oracle::Random random(16);
-  for (int i = 0; i < 3000; ++i) {
-    const Loop loop = oracle::random_stable_loop(random);
-    std::vector<kernel::LoopMargins> of(sets.size());
-    for (std::size_t k = 0; k < sets.size(); ++k)
-      kernel::find_margins(*sets[k], loop.family, {&loop.setting, 1}, {&of[k], 1});
-    for (std::size_t k = 1; k < sets.size(); ++k) {
-      const kernel::MarginRow &a = of[0].measures, &b = of[k].measures;
-      ASSERT_EQ(of[k].stable, of[0].stable) << simulate_command(loop);
-      for (const Measure m : {Measure::Ms, Measure::Mt, Measure::GM})
-        EXPECT_NEAR(1 / a[m], 1 / b[m], 1e-12) << to_string(m) << ": " << simulate_command(loop);
-      EXPECT_NEAR(a[Measure::GM_low], b[Measure::GM_low], 1e-12) << simulate_command(loop);
-      for (const Measure m : {Measure::PM, Measure::DM})
-        EXPECT_TRUE(a[m] == b[m] || std::abs(a[m] - b[m]) < 1e-12 * std::max(180.0, a[m]))
-            << simulate_command(loop);
-      for (const Measure m : {Measure::Ms_omega, Measure::Mt_omega})
-        EXPECT_TRUE(a[m] == b[m] || std::abs(a[m] - b[m]) < 1e-10 * a[m])
-            << to_string(m) << ' ' << a[m] << ' ' << b[m] << ": " << simulate_command(loop);
-    }
-  }
+  for (int i = 0; i < 3000; ++i) expect_same_on(sets, oracle::random_stable_loop(random));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,40 @@ class LaneMargins : public ::testing::TestWithParam<const kernel::Implementation
 
 inline std::string isa_name(const ::testing::TestParamInfo<const kernel::Implementation*>& isa) {
   return isa.param->name;
+}
+
+inline void expect_same_alone(const kernel::Implementation& implementation, const LoopFamily& family,
+                              const std::vector<Setting>& settings) {
+  std::vector<kernel::LoopMargins> together(settings.size());
+  kernel::find_margins(implementation, family, settings, together);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    kernel::LoopMargins alone;
+    kernel::find_margins(implementation, family, {&settings[i], 1}, {&alone, 1});
+    ASSERT_EQ(alone.stable, together[i].stable);
+    if (!alone.stable) continue;
+    for (const Measure m : kernel::kMarginMeasures)
+      EXPECT_EQ(alone.measures[m], together[i].measures[m])
+          << to_string(m) << ": " << simulate_command({family, settings[i]});
+  }
+}
+
+/// To 1e-12: distances from -1 and angles of 1 and pi, places where the peak is not level relative to themselves.
+inline void expect_same_on(const std::vector<const kernel::Implementation*>& sets, const Loop& loop) {
+  std::vector<kernel::LoopMargins> of(sets.size());
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    kernel::find_margins(*sets[k], loop.family, {&loop.setting, 1}, {&of[k], 1});
+  for (std::size_t k = 1; k < sets.size(); ++k) {
+    const kernel::MarginRow &a = of[0].measures, &b = of[k].measures;
+    ASSERT_EQ(of[k].stable, of[0].stable) << simulate_command(loop);
+    for (const Measure m : {Measure::Ms, Measure::Mt, Measure::GM})
+      EXPECT_NEAR(1 / a[m], 1 / b[m], 1e-12) << to_string(m) << ": " << simulate_command(loop);
+    EXPECT_NEAR(a[Measure::GM_low], b[Measure::GM_low], 1e-12) << simulate_command(loop);
+    for (const Measure m : {Measure::PM, Measure::DM})
+      EXPECT_TRUE(a[m] == b[m] || std::abs(a[m] - b[m]) < 1e-12 * std::max(180.0, a[m])) << simulate_command(loop);
+    for (const Measure m : {Measure::Ms_omega, Measure::Mt_omega})
+      EXPECT_TRUE(a[m] == b[m] || std::abs(a[m] - b[m]) < 1e-10 * a[m])
+          << to_string(m) << ' ' << a[m] << ' ' << b[m] << ": " << simulate_command(loop);
+  }
 }
 
 /// Stable or not.

@@ -117,20 +117,6 @@ TEST_P(LaneMargins, TheStabilityLimitIsExact) {
   EXPECT_GT(with_a_stable_side, 10'000);
 }
 
-void expect_same_alone(const kernel::Implementation& implementation, const LoopFamily& family,
-                       const std::vector<Setting>& settings) {
-  std::vector<kernel::LoopMargins> together(settings.size());
-  kernel::find_margins(implementation, family, settings, together);
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    kernel::LoopMargins alone;
-    kernel::find_margins(implementation, family, {&settings[i], 1}, {&alone, 1});
-    ASSERT_EQ(alone.stable, together[i].stable);
-    if (!alone.stable) continue;
-    for (const Measure m : kernel::kMarginMeasures)
-      EXPECT_EQ(alone.measures[m], together[i].measures[m]) << to_string(m) << ": " << simulate_command({family, settings[i]});
-  }
-}
-
 /// A setting's bits do not depend on what stands beside it.
 TEST_P(LaneMargins, NeighboursDoNotMatter) {
   oracle::Random random(9);
