@@ -11,6 +11,9 @@
 #include <thread>
 #include <unordered_set>
 
+#include <fmt/format.h>
+
+#include "engine/base/error.h"
 #include "engine/loop/open_loop.h"
 #include "engine/sweep/method.h"
 #include "grids/sweep_job.h"
@@ -98,6 +101,8 @@ void simulate(const Grid& grid, Block& block, const SampleRequest& request, std:
   const auto work = [&](bool tells) {
     for (std::size_t i = next++; i < block.numbers.size(); i = next++) {
       const Setting setting = setting_at(grid, block.numbers[i]);
+      if (const auto why = why_invalid(Loop{grid.family, setting}))
+        throw IntegrityError(fmt::format("setting {} of the portrait is no loop: {}", block.numbers[i], *why));
       measure_settings(Method::reference, grid.family, grid.horizon, extras, {&setting, 1},
                        {&block.truth[i], 1});
       if (tells && request.progress) request.progress(before + i);

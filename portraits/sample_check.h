@@ -52,7 +52,7 @@ inline constexpr std::size_t kMostMismatches = 10;
 /// Setting numbers below `total`, each once, in order; the same for the same seed everywhere.
 std::vector<std::uint64_t> random_settings(std::uint64_t total, std::uint64_t count, std::uint64_t seed);
 
-/// Throws what reading throws.
+/// Throws what reading throws, and IntegrityError for a setting that no sweep takes.
 SampleReport check_sample(const ColumnSource& source, const SampleRequest& request);
 
 }  // namespace portrait

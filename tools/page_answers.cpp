@@ -288,6 +288,7 @@ Json PageAnswers::simulate(const Json& request) const {
   const Grid& grid = portrait_.grid();
   const auto plant = units_in(request, grid).plant;
   const Loop loop{grid.family, setting_at(grid, number_in(request, grid))};
+  if (const auto why = why_invalid(loop)) unfit("the portrait's setting is no loop: " + *why);
   const auto responses = pictures::sampled_responses(loop, shown_horizon(loop, grid.horizon), kCurvePoints);
   const double g = plant ? input_gain(*plant) : 1, Td = plant ? plant->Td : 1;
   Json answer = setting(request);

@@ -20,6 +20,8 @@ test_packages=(
   dpkg-dev file                            # the Debian package that cpack makes
   strace                                   # killing a sweep at a chosen system call
 )
+# The thread sanitizer with what it must know of OpenMP.
+thread_packages=(clang libclang-rt-14-dev libomp-dev)
 
 say() { printf '==> %s\n' "$*"; }
 
@@ -52,7 +54,7 @@ install_missing() {
   }
 }
 
-# build PRESET [TARGET...]: configures when needed, then builds
+# build PRESET [TARGET...]: configures when needed, then builds the targets, or those of the preset
 build() {
   local preset=$1
   shift
@@ -61,5 +63,5 @@ build() {
     cmake --preset "$preset" --log-level=WARNING >/dev/null
   fi
   say "Building preset $preset"
-  cmake --build "build/$preset" ${1:+--target "$@"} -- --quiet
+  cmake --build --preset "$preset" ${1:+--target "$@"} -- --quiet
 }

@@ -41,6 +41,12 @@ void answer(int path, const tools::Json& request) {
     case 3:
       PORTRAIT_CHECK(answers().quantiles(request).is_object());
       return;
+    case 4:
+      PORTRAIT_CHECK(answers().rules(request).is_object());
+      return;
+    case 5:
+      PORTRAIT_CHECK(answers().simulate(request).is_object());
+      return;
     default:
       PORTRAIT_CHECK(answers().info().is_object());
   }
@@ -55,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const tools::Json request = tools::Json::parse(bytes + 1, bytes + size, nullptr, false);
   if (!request.is_object()) return 0;  // the server refuses these before it asks
   try {
-    answer(bytes[0] % 5, request);
+    answer(bytes[0] % 7, request);
   } catch (const InputError& error) {
     PORTRAIT_CHECK(std::string(error.what()).size() > 5);
   } catch (const nlohmann::json::exception&) {  // answered with 400, like an InputError

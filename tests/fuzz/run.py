@@ -23,7 +23,7 @@ HERE = Path(__file__).resolve().parent
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=Path)
-    parser.add_argument("target", choices=["expression", "options", "grid_file", "loops", "record", "request", "portrait_file"])
+    parser.add_argument("target", choices=["expression", "options", "grid_file", "loops", "record", "request", "http", "portrait_file"])
     parser.add_argument("--runs", type=int, default=20000)
     parser.add_argument("--max-len", type=int, default=256, help="bytes of an input")
     parser.add_argument("--seed", type=int, default=1)

@@ -8,12 +8,14 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/error.h"
 #include "engine/sweep/method.h"
 #include "grids/grid_file.h"
 #include "grids/sweep_job.h"
 #include "portraits/reader.h"
 #include "portraits/verify.h"
 #include "portraits/writer.h"
+#include "tests/portraits/sample.h"
 #include "tests/portraits/scratch.h"
 
 namespace portrait {
@@ -144,6 +146,12 @@ TEST_F(SampleCheck, OnlyTheSampleIsSimulated) {
   EXPECT_EQ(report.settings, 10u);
   EXPECT_EQ(report.failed, has_it ? 1u : 0u);
   EXPECT_LT(last, 10u);
+}
+
+TEST_F(SampleCheck, ASettingThatNoSweepTakesIsNamed) {
+  sample::write(in("p.h5"), sample::small_grid());  // c = 0.25 also where there is no integral action
+  const std::string message = message_of<IntegrityError>([&] { checked(); });  // that of any thread
+  EXPECT_NE(message.find(" of the portrait is no loop: "), std::string::npos) << message;
 }
 
 }  // namespace

@@ -65,6 +65,7 @@ class Hostile(ProgramTest):
         self.assertEqual(self.status("POST", "/api/info", b"{}", Content_Encoding="gzip", **json_type), 415)
         self.assertEqual(self.status("POST", "/api/info", b"2\r\n{}\r\n0\r\n\r\n", Transfer_Encoding="chunked", **json_type), 411)
         self.assertEqual(self.status("POST", "/api/info", b"x" * 65537, **json_type), 413)
+        self.assertEqual(self.status("GET", "/page.js", Range="bytes=" + ",".join(["0-"] * 1500)), 416)  # 50 MB from 36 kB
         for length in ("10000000000000", "-1", "99999999999999999999999999", "two", "0x10"):
             self.assertIn(self.status("POST", "/api/info", b"{}", Content_Length=length, **json_type), (400, 413), length)
         self.assertTrue(self.server.alive())

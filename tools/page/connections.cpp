@@ -24,8 +24,10 @@ std::size_t announced_length(const httplib::Request& request) {
   return error == std::errc() && end == text.data() + text.size() ? length : kMaxBody + 1;
 }
 
-/// What is wrong with the body's head: 0, or the status to answer with.
-int body_fault(const httplib::Request& request) {
+/// What is wrong with the head: 0, or the status to answer with.
+int head_fault(const httplib::Request& request) {
+  // The page asks for no parts, and thousands of them would be as many copies.
+  if (request.has_header("Range")) return 416;
   if (request.has_header("Transfer-Encoding")) return 411;
   if (request.has_header("Content-Encoding")) return 415;
   if (request.has_header("Content-Length") && announced_length(request) > kMaxBody) return 413;
@@ -106,8 +108,8 @@ void ConnectionThreads::work() {
     if (waiting_.empty()) return;
     const std::function<void()> connection = std::move(waiting_.front());
     waiting_.pop_front();
-    // Whoever waits behind this one shall not wait for clients that say nothing.
-    if (idle_ == 0 && !waiting_.empty()) open_.end_longest_waiting();
+    // Whoever waits behind this one shall not wait for clients that say nothing. Below the limit a thread comes for them.
+    if (idle_ == 0 && !waiting_.empty() && threads_.size() == kMaxConnections) open_.end_longest_waiting();
     changed_.notify_all();
     lock.unlock();
     connection();
@@ -161,7 +163,7 @@ httplib::Server::HandlerResponse LoopbackServer::admit(const httplib::Request& r
   const std::string origin = request.get_header_value("Origin");
   const bool known = host == own || host == name;
   const bool from_here = !request.has_header("Origin") || (known && origin == "http://" + host);
-  int status = !known || !from_here || request.get_header_value_count("Host") != 1 ? 403 : body_fault(request);
+  int status = !known || !from_here || request.get_header_value_count("Host") != 1 ? 403 : head_fault(request);
   if (status == 0 && request.method != "GET" && request.method != "HEAD" && request.method != "POST") status = 405;
   if (status == 0) return HandlerResponse::Unhandled;
   refused = true;
@@ -172,7 +174,7 @@ httplib::Server::HandlerResponse LoopbackServer::admit(const httplib::Request& r
   return HandlerResponse::Handled;
 }
 
-bool LoopbackServer::process_and_close_socket(socket_t socket) {
+bool LoopbackServer::talk(int socket) {
   open_.opened(socket);
   current_socket = socket;
   Connection connection(socket);

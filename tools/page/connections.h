@@ -83,13 +83,16 @@ class LoopbackServer final : public httplib::Server {
   void serve();
   /// From any thread.
   void stop_serving();
+  /// Runs one connection to its end, on this thread, and closes the socket; `serve` does so with those that come to its
+  /// port. False when the last request broke off.
+  bool talk(int socket);
 
   /// Answers POST requests with a JSON body; while it works on one, its connection is not ended to make room.
   void answer(const std::string& path, Handler handler);
 
  private:
   HandlerResponse admit(const httplib::Request& request, httplib::Response& response);
-  bool process_and_close_socket(socket_t socket) override;
+  bool process_and_close_socket(socket_t socket) override { return talk(socket); }
 
   OpenConnections open_;
   int port_ = 0;
