@@ -135,7 +135,9 @@ std::vector<Measure> usual_measures(const Grid& grid) {
   std::vector<Measure> usual;
   for (const Measure measure : standard_measures())
     if (grid.sampling || measure != Measure::noise_gain) usual.push_back(measure);
-  if (grid.noise) usual.insert(usual.end(), noisy_measures().begin(), noisy_measures().end());
+  if (!grid.noise) return usual;
+  const auto noisy = noisy_measures();
+  usual.insert(usual.end(), noisy.begin(), noisy.end());
   return usual;
 }
 

@@ -1,8 +1,10 @@
 #include "tools/output.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,7 +26,7 @@ constexpr TableRow kRows[] = {{"IAE", "IAE_"},           {"ISE", "ISE_"},       
                               {"largest |y|", "y_max_"}, {"largest |u|", "u_max_"}, {"class of y", "DC_y"},
                               {"class of u", "DC_u"}};
 
-/// With the rows of TV0 .. TV8 behind those of TV.
+/// With the rows of TV0 .. TV8 behind those of TV, and those under noise at the end.
 std::vector<std::pair<std::string, std::string>> table_rows() {
   std::vector<std::pair<std::string, std::string>> rows;
   for (const auto& [title, stem] : kRows) {
@@ -32,7 +34,16 @@ std::vector<std::pair<std::string, std::string>> table_rows() {
     for (int m = 0; m <= 8 && stem.starts_with("TV_"); ++m)
       rows.emplace_back(fmt::format("TV{}{}", m, title.substr(2)), fmt::format("TV{}{}", m, stem.substr(2)));
   }
+  for (const char* signal : {"y", "u"})
+    for (const char* shape : {"TV", "TV0", "TV1", "TV2"}) {
+      rows.emplace_back(fmt::format("noisy {} of {}", shape, signal), fmt::format("noisy_{}_{}", shape, signal));
+      rows.emplace_back("  its spread", fmt::format("spread_{}_{}", shape, signal));
+    }
   return rows;
+}
+
+int title_width(const std::vector<Measure>& measures) {
+  return std::any_of(measures.begin(), measures.end(), is_noisy) ? 20 : 12;
 }
 
 bool contains(const std::vector<Measure>& measures, Measure wanted) {
@@ -133,21 +144,22 @@ std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 std::string measures_table(const MeasureRow& row, const std::vector<Measure>& measures,
                            const std::string& unit_note) {
   const bool with_output = contains(measures, Measure::IAE_o);
-  std::string text = fmt::format("  {:<12} {:>14} {:>14}{}   {}\n", "", "setpoint", "disturbance",
+  const int width = title_width(measures);
+  std::string text = fmt::format("  {:<{}} {:>14} {:>14}{}   {}\n", "", width, "setpoint", "disturbance",
                                  with_output ? fmt::format(" {:>14}", "output") : "", unit_note);
   for (const auto& [title, stem] : table_rows()) {
-    std::string line = fmt::format("  {:<12}", title);
+    std::string line = fmt::format("  {:<{}}", title, width);
     bool any = false;
     for (const char* step : {"w", "d", "o"}) {
       if (*step == 'o' && !with_output) continue;
-      const Measure m = *measure_named(stem + step);
-      any = any || contains(measures, m);
-      line += fmt::format(" {:>14}", cell(row, measures, m));
+      const std::optional<Measure> m = measure_named(stem + step);
+      any = any || (m && contains(measures, *m));
+      line += fmt::format(" {:>14}", m ? cell(row, measures, *m) : "");
     }
     if (any) text += line + "\n";
   }
   for (const Measure m : measures)
-    if (info(m).step == '-') text += fmt::format("  {:<12} {:>14}\n", to_string(m), cell(row, measures, m));
+    if (info(m).step == '-') text += fmt::format("  {:<{}} {:>14}\n", to_string(m), width, cell(row, measures, m));
   return text;
 }
 

@@ -67,6 +67,24 @@ class Noise(program.ProgramTest):
         checked = self.run_program("verify", "noise.h5", "--sample", "20", "--seed", "1")
         self.assertEqual(checked.code, 0, checked.err + checked.out)
 
+    def test_without_a_list_all_measures_of_noise_are_kept_beside_the_usual_ones(self):
+        listed = GRID[GRID.index("measures"):GRID.index("[parameters]")]
+        self.sweep("noise.h5", text=GRID.replace(listed, ""))
+        self.sweep("quiet.h5", text=GRID.replace(listed, "").replace("noise = 0.05\n", "").replace("seed = 7\n", "").replace("seeds = 3\n", ""))
+        noisy, quiet = (self.run_program("info", name, "--json").json["measures"] for name in ("noise.h5", "quiet.h5"))
+        self.assertEqual(noisy, quiet + NAMES)
+        self.assertIn("noise_gain", quiet)
+
+    def test_an_answer_shows_the_signals_under_noise(self):
+        self.sweep("noise.h5")
+        best = self.run_program("query", "noise.h5", "--minimize", "noisy_TV_uw", "--json").json["optimum"]["measures"]
+        lines = self.run_program("query", "noise.h5", "--minimize", "noisy_TV_uw").out.splitlines()
+        for title, stem in (("noisy TV of u", "noisy_TV_u"), ("noisy TV2 of y", "noisy_TV2_y")):
+            at = next(i for i, line in enumerate(lines) if line.strip().startswith(title + " "))
+            self.assertEqual(lines[at].split()[-2:], [f"{best[stem + step]:.6g}" for step in "wd"])
+            spread = [f"{best[stem.replace('noisy', 'spread') + step]:.6g}" for step in "wd"]
+            self.assertEqual(lines[at + 1].split(), ["its", "spread", *spread])
+
     def test_the_portrait_knows_its_noise(self):
         self.sweep("noise.h5")
         info = self.run_program("info", "noise.h5", "--json").json
