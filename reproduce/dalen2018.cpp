@@ -5,6 +5,7 @@
 
 #include "engine/loop/loop_measures.h"
 #include "engine/loop/stability.h"
+#include "engine/reference/measure.h"
 #include "engine/reference/response.h"
 #include "engine/rules/delta_tuning.h"
 #include "engine/rules/field.h"
@@ -330,34 +331,53 @@ Numbers table10(const PublishedTable&) {
   return side_by_side(columns, corrected);
 }
 
-Numbers table12(const PublishedTable&) {
+
+/// `form` beside the Pareto optimum; corrected: J with the optimum's own integrals for weights.
+Numbers beside_front(const StandardForm& form) {
   const rules::ParetoPi& po = submersible_front();
-  return side_by_side({measured_column(submersible(), rules::delta_tuning(kSubmersible, 2.5, 2.20), po.least),
-                       measured_column(submersible(), form_of(po), po.least)});
+  std::vector<ColumnOfTen> columns, corrected;
+  for (const StandardForm& f : {form, form_of(po)}) {
+    columns.push_back(measured_column(submersible(), f, po.least));
+    corrected.push_back(measured_column(submersible(), f, po.errors));
+  }
+  return side_by_side(columns, corrected);
 }
+
+Numbers table12(const PublishedTable&) { return beside_front(rules::delta_tuning(kSubmersible, 2.5, 2.20)); }
 Numbers table14(const PublishedTable&) {
-  const rules::ParetoPi& po = submersible_front();
-  const IntegratingPlant slower{kSubmersible.k * 0.74, kSubmersible.tau};
-  return side_by_side({measured_column(submersible(), rules::delta_tuning(slower, 2.7, 2.7), po.least),
-                       measured_column(submersible(), form_of(po), po.least)});
+  return beside_front(rules::delta_tuning({kSubmersible.k * 0.74, kSubmersible.tau}, 2.7, 2.7));
 }
 
 // ---------------------------------------------------------------- distances from the front: Tables 2, 7, 9, 11, 13
 
-/// Mean over Ms of (J of the PI on the curve of cbar less J of the front)^2, J with the references of Ms = 1.59. The curve may
-/// be laid about another k and tau than the search's.                                                 [Dalen2018 (42)]
+constexpr int kIntervals = 16;
+
+/// Mean over a grid of Ms of (J of the PI on the curve of cbar less J of the front)^2, J with the references of Ms = 1.59
+/// throughout.                                                                                  [Dalen2018 (41), (42)]
+/// The paper does not state the grid. Here it is dense and uniform in the delta of Algorithm 1 with cbar = 2.5, from Ms = 2.0
+/// to 1.3: the mean is an integral, by Simpson's rule.
 struct Distances {
-  const PiLoop& loop;
-  std::vector<double> Ms;
+  PiLoop loop;
+  std::vector<double> Ms, weight;
   rules::PiErrors least;
   std::vector<double> front;
 
-  Distances(const PiLoop& a_loop, std::vector<double> grid) : loop(a_loop), Ms(std::move(grid)) {
-    least = rules::pareto_pi(loop, kMs, 0.5)->least;
-    for (const double peak : Ms) {
-      const rules::ParetoPi po = rules::pareto_pi(loop, peak, 0.5).value();
-      front.push_back(J(po.errors));
+  enum class Weights { least, of_front };
+
+  explicit Distances(PiLoop a_loop, Weights weights = Weights::least) : loop(std::move(a_loop)) {
+    const rules::ParetoPi po = rules::pareto_pi(loop, kMs, 0.5).value();
+    least = weights == Weights::least ? po.least : po.errors;
+    const double first = delta_of(2.0), last = delta_of(1.3);
+    for (int i = 0; i <= kIntervals; ++i) {
+      const StandardForm f = rules::delta_tuning(loop.scale, 2.5, first + (last - first) * i / kIntervals);
+      Ms.push_back(loop.Ms(f.Kc, f.Ti));
+      weight.push_back((i == 0 || i == kIntervals ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3 * kIntervals));
+      front.push_back(rules::pareto_pi(loop, Ms.back(), 0.5, least)->J);
     }
+  }
+  double delta_of(double peak) const {
+    const StandardForm f = rules::pi_of_sensitivity(loop, 2.5, peak).value();
+    return rules::relative_delay_margin(f.Kc * loop.scale.k * loop.scale.tau, f.Ti / loop.scale.tau);
   }
   double J(const rules::PiErrors& e) const { return 0.5 * (e.IAE_vy / least.IAE_vy + e.IAE_vu / least.IAE_vu); }
   /// `form` gives the PI of one Ms.
@@ -366,7 +386,7 @@ struct Distances {
     double sum = 0;
     for (std::size_t i = 0; i < Ms.size(); ++i) {
       const StandardForm f = form(Ms[i]);
-      sum += std::pow(J(loop.errors(f.Kc, f.Ti)) - front[i], 2) / static_cast<double>(Ms.size());
+      sum += weight[i] * std::pow(J(loop.errors(f.Kc, f.Ti)) - front[i], 2);
     }
     return sum;
   }
@@ -374,9 +394,6 @@ struct Distances {
     return of([&](double peak) { return rules::pi_of_sensitivity(loop, cbar, peak).value(); });
   }
 };
-
-std::vector<double> fine_grid() { return {1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2.0}; }
-std::vector<double> coarse_grid() { return {1.4, 1.6, 1.8}; }
 
 /// SIMC of a lag plant at a prescribed Ms, by its Tc.
 StandardForm simc_of_sensitivity(const PiLoop& loop, const LagDelayPlant& p, double Ms) {
@@ -389,47 +406,75 @@ StandardForm simc_of_sensitivity(const PiLoop& loop, const LagDelayPlant& p, dou
   return rules::simc_pi(p, high);
 }
 
+/// The integrals of each step over a window of time alone.
+PiLoop within_window(PiLoop loop, const RulePlant& plant, double seconds) {
+  loop.errors = [plant, seconds](double Kp, double Ti) {
+    const auto m = reference::measure_in_units(rules::general_loop(plant, pi(Kp, Ti)), Horizon::fixed(seconds));
+    return rules::PiErrors{m.measured.measures[Measure::IAE_w], m.measured.measures[Measure::IAE_d]};
+  };
+  return loop;
+}
+
+Numbers with_correction(const std::vector<double>& values, const std::vector<double>& corrected) {
+  Numbers numbers{row(values, values.size())};
+  for (std::size_t i = 0; i < corrected.size(); ++i) numbers[0][i].corrected = corrected[i];
+  return numbers;
+}
+
 Numbers table2(const PublishedTable&) {
-  const PiLoop loop = rules::pi_loop(kUnit);
-  const Distances d(loop, fine_grid());
+  const Distances d(rules::pi_loop(kUnit));
   return {row({d.of_cbar(2.5), d.of_cbar(2.7), d.of_cbar(4)})};
+}
+
+std::vector<double> beside_simc(const Distances& d, const LagDelayPlant& half) {
+  return {d.of_cbar(2.5), d.of_cbar(2.7), d.of([&](double Ms) { return simc_of_sensitivity(d.loop, half, Ms); })};
 }
 Numbers table7(const PublishedTable&) {
   const PiLoop loop = rules::pi_loop(kHeater);
-  const Distances d(loop, fine_grid());
-  return {row(
-      {d.of_cbar(2.5), d.of_cbar(2.7), d.of([&](double Ms) { return simc_of_sensitivity(loop, kHeater, Ms); })})};
+  const RulePlant plant = rules::jotd(kHeater.K, kHeater.tau, kHeater.T, 1);
+  return with_correction(beside_simc(Distances(loop), kHeater),
+                         beside_simc(Distances(within_window(loop, plant, 155)), kHeater));
 }
 Numbers table9(const PublishedTable&) {
   const PiLoop loop = general_pi_loop(column(), kColumn);
-  const Distances d(loop, coarse_grid());
-  return {row({d.of_cbar(2.5), d.of_cbar(2.7), d.of([&](double Ms) {
-                 return simc_of_sensitivity(loop, {34, 54.25, 0.75}, Ms);
-               })})};
+  const LagDelayPlant half{34, 54.25, 0.75};
+  return with_correction(beside_simc(Distances(loop), half),
+                         beside_simc(Distances(within_window(loop, column(), 40)), half));
 }
 
 const Distances& submersible_distances() {
-  static const PiLoop loop = general_pi_loop(submersible(), kSubmersible);
-  static const Distances d(loop, coarse_grid());
+  static const Distances d(general_pi_loop(submersible(), kSubmersible));
+  return d;
+}
+/// Corrected: windows of 125 s, and the weights of Table 12.
+const Distances& submersible_windows() {
+  static const Distances d(within_window(general_pi_loop(submersible(), kSubmersible), submersible(), 125),
+                           Distances::Weights::of_front);
   return d;
 }
 Numbers table11(const PublishedTable&) {
-  const Distances& d = submersible_distances();
-  return {row({d.of_cbar(2.5), d.of_cbar(2.7), d.of_cbar(4)})};
+  const auto of = [](const Distances& d) { return std::vector{d.of_cbar(2.5), d.of_cbar(2.7), d.of_cbar(4)}; };
+  return with_correction(of(submersible_distances()), of(submersible_windows()));
 }
+
 /// zeta at a prescribed Ms: Ti stays, Kp falls with zeta.
-Numbers table13(const PublishedTable&) {
-  const Distances& d = submersible_distances();
-  const auto by_zeta = [&](double Ms) {
-    double low = 0.2, high = 3;
-    for (int i = 0; i < 60; ++i) {
-      const double zeta = 0.5 * (low + high);
-      const StandardForm f = rules::delta_tuning({kSubmersible.k * zeta, kSubmersible.tau}, 2.7, 2.7);
-      (d.loop.Ms(f.Kc, f.Ti) < Ms ? high : low) = zeta;
-    }
-    return rules::delta_tuning({kSubmersible.k * high, kSubmersible.tau}, 2.7, 2.7);
+StandardForm zeta_of_sensitivity(const PiLoop& loop, double Ms) {
+  const auto form = [](double zeta) {
+    return rules::delta_tuning({kSubmersible.k * zeta, kSubmersible.tau}, 2.7, 2.7);
   };
-  return {row({d.of_cbar(2.5), d.of(by_zeta)})};
+  double low = 0.2, high = 3;
+  for (int i = 0; i < 60; ++i) {
+    const double zeta = 0.5 * (low + high);
+    const StandardForm f = form(zeta);
+    (loop.Ms(f.Kc, f.Ti) < Ms ? high : low) = zeta;
+  }
+  return form(high);
+}
+Numbers table13(const PublishedTable&) {
+  const auto of = [](const Distances& d) {
+    return std::vector{d.of_cbar(2.5), d.of([&](double Ms) { return zeta_of_sensitivity(d.loop, Ms); })};
+  };
+  return with_correction(of(submersible_distances()), of(submersible_windows()));
 }
 
 }  // namespace

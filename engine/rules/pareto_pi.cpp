@@ -90,26 +90,39 @@ std::optional<StandardForm> pi_of_sensitivity(const PiLoop& loop, double cbar, d
   return on_curve(loop, cbar, root_between(excess, slow / kStep, slow, 1e-14));
 }
 
-std::optional<ParetoPi> pareto_pi(const PiLoop& loop, double Ms, double s_r) {
-  const auto errors_at = [&](double log_cbar) -> PiErrors {
-    const auto form = pi_of_sensitivity(loop, std::exp(log_cbar), Ms);
-    return form ? loop.errors(form->Kc, form->Ti) : PiErrors{kNaN, kNaN};
-  };
+namespace {
+
+PiErrors errors_on_curve(const PiLoop& loop, double log_cbar, double Ms) {
+  const auto form = pi_of_sensitivity(loop, std::exp(log_cbar), Ms);
+  return form ? loop.errors(form->Kc, form->Ti) : PiErrors{kNaN, kNaN};
+}
+
+/// The least values of both at this Ms, each for itself.
+PiErrors least_errors(const PiLoop& loop, double Ms) {
   const auto least = [&](double PiErrors::*of) {
-    const double at = minimum_at([&](double x) { return errors_at(x).*of; });
-    return errors_at(at).*of;
+    const double at = minimum_at([&](double x) { return errors_on_curve(loop, x, Ms).*of; });
+    return errors_on_curve(loop, at, Ms).*of;
   };
-  PiErrors reference{kNaN, least(&PiErrors::IAE_vu)};
-  if (loop.integrating) {
-    const auto p = pi_of_sensitivity(loop, kInf, Ms);
-    if (p) reference.IAE_vy = loop.errors(p->Kc, p->Ti).IAE_vy;
-  } else {
-    reference.IAE_vy = least(&PiErrors::IAE_vy);
+  PiErrors found{kNaN, least(&PiErrors::IAE_vu)};
+  if (!loop.integrating) {
+    found.IAE_vy = least(&PiErrors::IAE_vy);
+  } else if (const auto p = pi_of_sensitivity(loop, kInf, Ms)) {
+    found.IAE_vy = loop.errors(p->Kc, p->Ti).IAE_vy;
   }
+  return found;
+}
+
+}  // namespace
+
+std::optional<ParetoPi> pareto_pi(const PiLoop& loop, double Ms, double s_r) {
+  return pareto_pi(loop, Ms, s_r, least_errors(loop, Ms));
+}
+
+std::optional<ParetoPi> pareto_pi(const PiLoop& loop, double Ms, double s_r, const PiErrors& reference) {
   const auto J = [&](const PiErrors& e) {
     return s_r * e.IAE_vy / reference.IAE_vy + (1 - s_r) * e.IAE_vu / reference.IAE_vu;
   };
-  const double at = minimum_at([&](double x) { return J(errors_at(x)); });
+  const double at = minimum_at([&](double x) { return J(errors_on_curve(loop, x, Ms)); });
   const auto form = pi_of_sensitivity(loop, std::exp(at), Ms);
   if (!form || std::isnan(reference.IAE_vy) || std::isnan(reference.IAE_vu)) return std::nullopt;
   const PiErrors found = loop.errors(form->Kc, form->Ti);

@@ -42,6 +42,9 @@ struct ParetoPi {
 /// Nothing when no PI has this Ms. REQUIRES: Ms > 1, 0 <= s_r <= 1 (< 1 on an integrating plant).
 std::optional<ParetoPi> pareto_pi(const PiLoop& loop, double Ms, double s_r);
 
+/// The same with J's weights IAE^o given, as those of another Ms: points of one front for one J. `least` is `reference`.
+std::optional<ParetoPi> pareto_pi(const PiLoop& loop, double Ms, double s_r, const PiErrors& reference);
+
 /// Kp and Ti with this Ms on a curve of constant cbar (inf: P control); nothing when there are none.
 std::optional<StandardForm> pi_of_sensitivity(const PiLoop& loop, double cbar, double Ms);
 
