@@ -1,7 +1,10 @@
 /// The tables of Dalen2018.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "engine/loop/loop_measures.h"
 #include "engine/loop/stability.h"
@@ -90,6 +93,28 @@ Numbers prc(const PublishedTable&) {
   return {row({four.k, four.tau}), row({five.k, five.tau})};
 }
 
+// ---------------------------------------------------------------- the paper's own sampled loop
+
+/// Error and plant input of k e^{-tau s}/s under PI: u held over dt, the integral by Euler, unit steps at the plant's
+/// output and input from the samples `out` and `in` on, `steps` samples in all. REQUIRES: tau/dt is whole.
+struct SampledRun {
+  std::vector<double> error, input;
+};
+
+SampledRun sampled_run(const IntegratingPlant& p, const StandardForm& f, double dt, int out, int in, int steps) {
+  const int delay = static_cast<int>(std::lround(p.tau / dt));
+  SampledRun run{std::vector<double>(static_cast<std::size_t>(steps) + 1), {}};
+  run.input = run.error;
+  double y = 0, integral = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double e = -(y + (i >= out ? 1 : 0));
+    run.error[k] = e, run.input[k] = f.Kc * (e + integral / f.Ti) + (i >= in ? 1 : 0), integral += dt * e;
+    if (i >= delay) y += dt * p.k * run.input[k - static_cast<std::size_t>(delay)];
+  }
+  return run;
+}
+
 // ---------------------------------------------------------------- best method products: Tables 1, 3, 4, 5
 
 /// Everything at one cbar, delta = 1.6, k = tau = 1.
@@ -110,8 +135,8 @@ std::vector<MeasureRow> along_cbar() {
   return rows;
 }
 
-template <typename Index>
-double best_cbar(const std::vector<MeasureRow>& rows, const Index& index) {
+template <typename Row, typename Index>
+double best_cbar(const std::vector<Row>& rows, const Index& index) {
   std::size_t best = 0;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (index(rows[i]) < index(rows[best])) best = i;
@@ -146,14 +171,49 @@ Numbers table3(const PublishedTable&) {
                index_of(rows, Measure::ITAE_w), index_of(rows, Measure::IAE_w)})};
 }
 
+/// Indices of the paper's loop sampled with 0.01: of both steps in one run, the input step at T_1, and of the input step alone.
+struct SampledIndices {
+  double IAE_vu = 0, ITAE_vu = 0, ITAE = 0, ITSE = 0;
+};
+
+SampledIndices sampled_indices(const IntegratingPlant& p, const StandardForm& f, double T1) {
+  constexpr double dt = 0.01;
+  constexpr int kNever = std::numeric_limits<int>::max();
+  const int in = static_cast<int>(std::lround(T1 / dt));
+  SampledIndices sum;
+  const std::vector<double> both = sampled_run(p, f, dt, 0, in, 2 * in).error;
+  for (std::size_t k = 0; k < both.size(); ++k) {
+    const double t = static_cast<double>(k) * dt;
+    sum.ITAE += t * std::abs(both[k]), sum.ITSE += t * both[k] * both[k];
+  }
+  const std::vector<double> alone = sampled_run(p, f, dt, kNever, 0, in).error;
+  for (std::size_t k = 0; k < alone.size(); ++k)
+    sum.IAE_vu += std::abs(alone[k]), sum.ITAE_vu += static_cast<double>(k) * dt * std::abs(alone[k]);
+  return sum;
+}
+
+/// The same along cbar; T_1 is 45 tau, and 20 for k = 1, tau = 0.1.
+std::vector<SampledIndices> sampled_along_cbar(std::string_view label) {
+  const IntegratingPlant p{number_in_label(label, "k"), number_in_label(label, "tau")};
+  const double T1 = p.k == 1 && p.tau == 0.1 ? 20 : 45 * p.tau;
+  std::vector<SampledIndices> found;
+  for (int i = 0; i <= 50; ++i) found.push_back(sampled_indices(p, rules::delta_tuning(p, 1.5 + 0.05 * i, 1.6), T1));
+  return found;
+}
+
 Numbers table4(const PublishedTable& table) {
   const auto rows = along_cbar();
   Numbers numbers;
   for (const PrintedRow& r : table.rows) {
     const Together both = together(r.label);
-    numbers.push_back(
-        row({index_of(rows, Measure::Ms), index_of(rows, Measure::IAE_d),
-             best_cbar(rows, [&](const MeasureRow& m) { return both.ITAE(m); }), index_of(rows, Measure::ITAE_d)}));
+    const auto sampled = sampled_along_cbar(r.label);
+    const auto best = [&](double SampledIndices::*index) {
+      return best_cbar(sampled, [&](const SampledIndices& s) { return s.*index; });
+    };
+    numbers.push_back({{index_of(rows, Measure::Ms), {}},
+                       {index_of(rows, Measure::IAE_d), best(&SampledIndices::IAE_vu)},
+                       {best_cbar(rows, [&](const MeasureRow& m) { return both.ITAE(m); }), best(&SampledIndices::ITAE)},
+                       {index_of(rows, Measure::ITAE_d), best(&SampledIndices::ITAE_vu)}});
   }
   return numbers;
 }
@@ -168,37 +228,67 @@ Numbers table5(const PublishedTable& table) {
     };
     numbers.push_back(row({index_of(rows, Measure::ITAE_w), best(&Together::ITSE), best(&Together::ISE),
                            best(&Together::TV), index_of(rows, Measure::IAE_w)}));
+    numbers.back()[1].corrected =
+        best_cbar(sampled_along_cbar(r.label), [](const SampledIndices& s) { return s.ITSE; });
   }
   return numbers;
 }
 
-/// cbar that is least in the mean square of J(cbar, delta) less its least over cbar, delta = 1.1 .. 3.4.   [Dalen2018 (43)]
-Numbers table1(const PublishedTable& table) {
-  constexpr int kCbars = 61, kDeltas = 24;
-  std::vector<Setting> settings;
-  for (int d = 0; d < kDeltas; ++d)
-    for (int c = 0; c < kCbars; ++c) {
-      const StandardForm f = rules::delta_tuning(kUnit, 2 + 0.05 * c, 1.1 + 0.1 * d);
-      settings.push_back({.kappa = f.Kc, .tau_i = f.Ti});
+/// J's parts over delta = 1.1 .. 3.4 and cbar = 2 .. 5.
+struct AlongDelta {
+  static constexpr int kCbars = 61, kDeltas = 24;
+  std::vector<SettingMeasured> found;
+  std::vector<rules::PiErrors> weights;  ///< by delta
+
+  explicit AlongDelta(Horizon horizon) : found(kCbars * kDeltas), weights(kDeltas, {2.17, 15.10}) {
+    std::vector<Setting> settings;
+    for (int d = 0; d < kDeltas; ++d)
+      for (int c = 0; c < kCbars; ++c) {
+        const StandardForm f = rules::delta_tuning(kUnit, 2 + 0.05 * c, delta(d));
+        settings.push_back({.kappa = f.Kc, .tau_i = f.Ti});
+      }
+    measure_settings(Method::kernel, kFamily, horizon, {}, settings, found);
+  }
+  /// IAE^o of each delta in place of that of Ms = 1.59: by P control with that delta, and the least of the curves.
+  void weigh_by_own(Horizon horizon) {
+    for (int d = 0; d < kDeltas; ++d) {
+      const Setting p{.kappa = std::numbers::pi / 2 / (1 + delta(d)), .tau_i = kInf};
+      SettingMeasured alone;
+      measure_settings(Method::kernel, kFamily, horizon, {}, {&p, 1}, {&alone, 1});
+      rules::PiErrors& w = weights[static_cast<std::size_t>(d)];
+      w = {alone.measures[Measure::IAE_w], kInf};
+      for (int c = 0; c < kCbars; ++c) w.IAE_vu = std::min(w.IAE_vu, at(d, c)[Measure::IAE_d]);
     }
-  std::vector<SettingMeasured> found(settings.size());
-  measure_settings(Method::kernel, {Plant::ipdt, 0, Prefilter::none}, Horizon::until_settled(), {}, settings,
-                   found);
-  Numbers numbers;
-  for (const PrintedRow& r : table.rows) {
-    const double s_r = number_in_label(r.label, "s_r");
-    const auto J = [&](int d, int c) {
-      const MeasureRow& m = found[static_cast<std::size_t>(d * kCbars + c)].measures;
-      return s_r * m[Measure::IAE_w] / 2.17 + (1 - s_r) * m[Measure::IAE_d] / 15.10;
-    };
+  }
+  double J(double s_r, int d, int c) const {
+    const rules::PiErrors& w = weights[static_cast<std::size_t>(d)];
+    return s_r * at(d, c)[Measure::IAE_w] / w.IAE_vy + (1 - s_r) * at(d, c)[Measure::IAE_d] / w.IAE_vu;
+  }
+  /// cbar that is least in the mean square of J(cbar, delta) less its least over cbar.              [Dalen2018 (43)]
+  double best(double s_r) const {
     std::vector<double> sums(kCbars, 0.0);
     for (int d = 0; d < kDeltas; ++d) {
       double least = kInf;
-      for (int c = 0; c < kCbars; ++c) least = std::min(least, J(d, c));
-      for (int c = 0; c < kCbars; ++c) sums[static_cast<std::size_t>(c)] += std::pow(J(d, c) - least, 2);
+      for (int c = 0; c < kCbars; ++c) least = std::min(least, J(s_r, d, c));
+      for (int c = 0; c < kCbars; ++c) sums[static_cast<std::size_t>(c)] += std::pow(J(s_r, d, c) - least, 2);
     }
-    const auto best = std::min_element(sums.begin(), sums.end()) - sums.begin();
-    numbers.push_back(row({2 + 0.05 * static_cast<double>(best)}));
+    return 2 + 0.05 * static_cast<double>(std::min_element(sums.begin(), sums.end()) - sums.begin());
+  }
+
+ private:
+  static constexpr LoopFamily kFamily{Plant::ipdt, 0, Prefilter::none};
+  static double delta(int d) { return 1.1 + 0.1 * d; }
+  const MeasureRow& at(int d, int c) const { return found[static_cast<std::size_t>(d * kCbars + c)].measures; }
+};
+
+Numbers table1(const PublishedTable& table) {
+  const AlongDelta printed(Horizon::until_settled());
+  AlongDelta corrected(Horizon::fixed(50));
+  corrected.weigh_by_own(Horizon::fixed(50));
+  Numbers numbers;
+  for (const PrintedRow& r : table.rows) {
+    const double s_r = number_in_label(r.label, "s_r");
+    numbers.push_back({{printed.best(s_r), corrected.best(s_r)}});
   }
   return numbers;
 }
@@ -234,20 +324,15 @@ Numbers side_by_side(const std::vector<ColumnOfTen>& columns, const std::vector<
 
 StandardForm form_of(const rules::ParetoPi& p) { return {p.Kp, p.Ti, 0}; }
 
-/// The paper's own loop: hold of 0.1, the integral by Euler, IAE by trapezoids, steps at 0 and 50, 100 in all.
+/// Hold of 0.1, IAE by trapezoids, steps at 0 and 50, 100 in all.
 std::array<double, 3> sampled_example2(const StandardForm& f) {
-  constexpr int kSteps = 1000, kDelay = 10, kInput = 500;
+  constexpr int kSteps = 1000, kInput = 500;
   constexpr double dt = 0.1;
-  double y = 0, integral = 0, IAE_y = 0, IAE_u = 0, TV = 0, last = 0;
-  std::vector<double> u(kSteps + 1), error(kSteps + 1);
-  for (int i = 0; i <= kSteps; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const double e = -(y + 1);
-    error[k] = std::abs(e), u[k] = f.Kc * (e + integral / f.Ti), integral += dt * e;
-    const double input = u[k] + (i >= kInput ? 1 : 0);
-    if (i > 0) TV += std::abs(input - last), (i <= kInput ? IAE_y : IAE_u) += dt / 2 * (error[k] + error[k - 1]);
-    last = input;
-    y += dt * ((i >= kDelay ? u[k - kDelay] : 0) + (i >= kDelay + kInput ? 1 : 0));
+  const auto [error, input] = sampled_run(kUnit, f, dt, 0, kInput, kSteps);
+  double IAE_y = 0, IAE_u = 0, TV = 0;
+  for (std::size_t k = 1; k <= kSteps; ++k) {
+    TV += std::abs(input[k] - input[k - 1]);
+    (k <= kInput ? IAE_y : IAE_u) += dt / 2 * (std::abs(error[k]) + std::abs(error[k - 1]));
   }
   return {IAE_y, IAE_u, TV};
 }
