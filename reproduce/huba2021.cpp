@@ -1,12 +1,13 @@
 /// The tables of Huba2021.
 
+#include "reproduce/huba2021.h"
+
 #include <cmath>
 
 #include "engine/reference/measure.h"
 #include "engine/rules/catalogue.h"
 #include "engine/rules/half_rule.h"
 #include "engine/rules/model_based.h"
-#include "reproduce/huba2021.h"
 
 namespace portrait::reproduce {
 namespace {

@@ -29,8 +29,7 @@ double absolute_error(const StepResponse& step, const reference::NoiseAnswer& an
 
 std::array<Noisy, 2> noisy(const Designed& d) {
   const NormalisedLoop loop = normalised(rules::general_loop(example6_plant(), d.tuned), 1.0);
-  const reference::Response r =
-      reference::simulate(loop.loop, Horizon::until_settled(), {}, reference::kAllSteps);
+  const reference::Response r = reference::simulate(loop.loop, Horizon::until_settled(), {}, reference::kAllSteps);
   const reference::NoiseAnswer answer(r, kSampling, kSeconds);
   std::array<Noisy, 2> mean{};
   for (int seed = 1; seed <= kSeeds; ++seed) {

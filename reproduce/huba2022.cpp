@@ -238,7 +238,8 @@ Numbers eq50(const PublishedTable& table) {
     const Setting s = parallel_setting(kSeries[i]);
     const auto cell = [&](std::size_t c) { return printed(*table.rows[i].cells[c]).value; };
     const double Ms_printed = Ms_of({.kappa = cell(0), .tau_i = cell(2), .delta = cell(1)});
-    numbers.push_back({{s.kappa, {}}, {s.delta, s.delta / 2}, {s.tau_i, {}}, {Ms_printed, Ms_of(s)}});
+    numbers.push_back(
+        {{s.kappa, {}}, {s.delta, s.delta * kSeries[i][0] / s.kappa}, {s.tau_i, {}}, {Ms_printed, Ms_of(s)}});
   }
   return numbers;
 }

@@ -194,13 +194,24 @@ std::optional<double> given_dead_time(const Plants& plants, const std::string& l
   return &plants == &plants_5_45() ? 0.011 : 0.739;
 }
 
+/// For e^{-s}/s the thesis has a_1m = 0.0101, and went on with it. The model's areas are A_1 = T + a_1 and
+/// A_2 = T^2/2 + a_1 A_1; without the filter a_1 is 0, with it T_F; A_2 - T^2/2 with the filter, not divided by A_1, is what
+/// the thesis prints.
+bool is_dead_time_alone(const rules::AreaModel& m) { return std::abs(m.a1) < 1e-4; }
+double printed_lag(const Areas& with, const Areas& without) {
+  const double T = without[1] / without[0];
+  return with[2] / with[0] - T * T / 2;
+}
+
 Numbers models(const PublishedTable& table, const Plants& plants) {
   Numbers numbers;
   for (const PrintedRow& r : table.rows) {
     const RulePlant& plant = plants.at(r.label);
     const ParallelForm pd = rules::integrating_pd(with_filter(plant)).value();
-    const rules::AreaModel m = model_of(areas_of(plant, 5), given_dead_time(plants, r.label));
+    const Areas without = areas_of(plant, 5);
+    const rules::AreaModel m = model_of(without, given_dead_time(plants, r.label));
     numbers.push_back(row({pd.Kp, pd.Kd, m.K, m.b1, m.Td, m.a1, m.a2}));
+    if (is_dead_time_alone(m)) numbers.back()[5].corrected = printed_lag(with_filter(plant), without);
   }
   return numbers;
 }
@@ -226,12 +237,12 @@ Numbers second_order_filters(const PublishedTable& table, const Plants& plants) 
 Numbers table5_14(const PublishedTable& t) { return second_order_filters(t, plants_5_45()); }
 Numbers tableA_15(const PublishedTable& t) { return second_order_filters(t, plants_7_2()); }
 
-/// b_F5 .. b_F1 and T_CL. Corrected: T_CL with the filter in its areas, and for a dead time alone the a_1m that was used.
+/// b_F5 .. b_F1 and T_CL. Corrected: T_CL with the filter in its areas, and for a dead time alone the printed a_1m.
 std::vector<Computed> higher_filter(const Areas& without, const Areas& with, rules::AreaModel m, double Tf,
                                     double K_CL) {
   const ParallelForm pid = rules::integrating_pid(with, 0).value();
   const auto b = rules::reference_filter_5(m, pid, Tf);
-  if (std::abs(m.a1) < 1e-4) m.a1 = 0.0101;
+  if (is_dead_time_alone(m)) m.a1 = printed_lag(with, without);
   const auto corrected = rules::reference_filter_5(m, pid, Tf);
   std::vector<Computed> made;
   for (std::size_t i = 5; i-- > 0;) made.push_back({b[i], corrected[i]});
@@ -289,6 +300,15 @@ Numbers section6_1(const PublishedTable&) {
           row({largest_alpha(true, 0.5)}), row({largest_alpha(true, 0.9)})};
 }
 
+/// Largest |S| at 200 frequencies, as far apart on the logarithmic scale, from 0.01 to 10.
+double sampled_peak(const RulePlant& plant, const rules::Tuned& tuned) {
+  const OpenLoop open = open_loop(rules::general_loop(plant, tuned));
+  double peak = 0;
+  for (int i = 0; i < 200; ++i)
+    peak = std::max(peak, 1 / std::abs(1.0 + response_at(open, std::pow(10, -2 + 3.0 * i / 199))));
+  return peak;
+}
+
 Numbers chapter7_ms(const PublishedTable&) {
   const auto Ms = [](const char* plant, double Kp, double Ki) {
     return row({peak_sensitivity(plants_7_1().at(plant), pid({Kp, Ki, 0}))});
@@ -297,8 +317,10 @@ Numbers chapter7_ms(const PublishedTable&) {
     const RulePlant& p = plants_7_1().at(plant);
     return row({peak_sensitivity(p, pid(pi_of(p, 0.5)))});
   };
+  const RulePlant& first = plants_7_1().at("GP1");
+  const rules::Tuned ali_majhi = pid({12.6898, 2.14342, 0});
   return {Ms("GP1", 5.6676, 1.2633),
-          Ms("GP1", 12.6898, 2.14342),
+          {{peak_sensitivity(first, ali_majhi), sampled_peak(first, ali_majhi)}},
           own("GP2"),
           Ms("GP2", 0.7662, 0.18729),
           own("GP3"),

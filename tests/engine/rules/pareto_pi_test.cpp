@@ -10,8 +10,8 @@ namespace portrait::rules {
 namespace {
 
 /// J at Ms along the front, apart from the search.
-double J_at(const PiLoop& loop, const ParetoPi& found, double cbar, double s_r) {
-  const auto form = pi_of_sensitivity(loop, cbar, 1.59);
+double J_at(const PiLoop& loop, const ParetoPi& found, double cbar, double s_r, double Ms = 1.59) {
+  const auto form = pi_of_sensitivity(loop, cbar, Ms);
   const PiErrors e = loop.errors(form->Kc, form->Ti);
   return s_r * e.IAE_vy / found.least.IAE_vy + (1 - s_r) * e.IAE_vu / found.least.IAE_vu;
 }
@@ -29,6 +29,20 @@ TEST(ParetoPi, IntegratorMeetsMsAndTheFrontIsHigherOnBothSides) {
   EXPECT_NEAR(left, right, 0.05 * left);
   EXPECT_NEAR(found->Kp, 0.40994, 2e-5);
   EXPECT_NEAR(found->Ti, 6.27372, 5e-5);
+}
+
+TEST(ParetoPi, WeightsOfAnotherMsGiveAnotherOptimum) {
+  const PiLoop loop = pi_loop(IntegratingPlant{1, 1});
+  const PiErrors weights{2.17, 15.10};
+  const auto own = pareto_pi(loop, 1.3, 0.5), given = pareto_pi(loop, 1.3, 0.5, weights);
+  ASSERT_TRUE(own && given);
+  EXPECT_EQ(given->least.IAE_vy, weights.IAE_vy);
+  EXPECT_EQ(given->least.IAE_vu, weights.IAE_vu);
+  // The slow loops of this Ms have a larger IAE_vu yet: weighed against that of 1.59, less of it is worth more.
+  EXPECT_LT(given->cbar, 0.97 * own->cbar);
+  EXPECT_GT(J_at(loop, *given, given->cbar * std::exp(-0.05), 0.5, 1.3), given->J);
+  EXPECT_GT(J_at(loop, *given, given->cbar * std::exp(0.05), 0.5, 1.3), given->J);
+  EXPECT_NEAR(pareto_pi(loop, 1.3, 0.5, own->least)->J, own->J, 1e-12);
 }
 
 TEST(ParetoPi, ScalesWithThePlant) {
