@@ -95,6 +95,14 @@ class Tune(ProgramTest):
         self.assertAlmostEqual(record["residual"], 0.02 / math.sqrt(3), places=2)
         self.assertEqual(record["remarks"], [])
 
+    def test_missing_samples_and_noise_are_told(self):
+        lines = self.step_record(noise=0.05).read_text().splitlines()
+        self.write("gap.csv", "\n".join(lines[:300] + lines[310:]) + "\n")
+        record = self.run_program("tune", "--plant", "fotd", "--response", "gap.csv", "--json").json
+        self.assertEqual(record["remarks"], ["about 10 samples are missing after t = 14.9: y is taken as a straight line, u as held there"])
+        self.assertAlmostEqual(record["T1"], 3, places=1)
+        self.assertAlmostEqual(record["residual"], 0.05 / math.sqrt(3), places=2)
+
     def test_bad_records(self):
         self.step_record(end=9)
         result = self.run_program("tune", "ho-pid", "--plant", "self-regulating", "--response", "step.csv", "--Tf", "1")
@@ -124,6 +132,59 @@ class Tune(ProgramTest):
         self.assertFalse(rules["ho-pid"]["applicable"])
         strict = self.run_program(*ask, "--where", "Ms <= 1.1").json
         self.assertIn("Ms <= 1.1", {r["rule"]: r for r in strict["rules"]}["huba2022-qrdp"]["violated"])
+
+    def test_every_precondition_is_named(self):
+        """What a rule lacks, one case a sentence of engine/rules, as the program says it."""
+        lag, no_delay = ("--plant", "fotd", "--T1", "1"), ("--plant", "fotd", "--T1", "1", "--Td", "0")
+        oscillating, pure = ("--plant", "tf:1/1,0.1,1"), ("--plant", "ipdt", "--Td", "0")
+        cases = [
+            (("dalen2018-delta", *pure), "without dead time the margin must be given in time: --dtau"),
+            (("dalen2018-delta", *PLANT), 'it needs an ipdt or a fotd plant, and "dipdt" is neither'),
+            (("dalen2018-delta-ms", "--plant", "ipdt", "--cbar", "2", "--Ms", "1.0001"),
+             "no PI with cbar = 2 has Ms = 1.0001: it is higher for all"),
+            (("dalen2018-pade", *pure), "it needs a dead time above 0"),
+            (("dalen2018-prc", "--plant", "tf:1,2/1,1", "--Td", "1"),
+             "the step response of the plant jumps: it has no steepest tangent"),
+            (("dalen2018-prc", *PLANT), "the step response of the plant grows ever steeper"),
+            (("dalen2018-prc", *no_delay), "the tangent of the step response has no lag: there is no dead time to tune by"),
+            (("dalen2018-pareto", "--plant", "ipdt", "--sr", "1"),
+             "on an integrating plant sr = 1 ends in P control: give --sr below 1"),
+            (("dalen2018-pareto", *PLANT), 'it needs an ipdt or a fotd plant, and "dipdt" is neither'),
+            (("simc-pi", *PLANT), "a PI does not stabilise two integrators: simc-pid does"),
+            (("simc-pi", *oscillating), 'it needs a plant of real lags without zeros, and "tf:1/1,0.1,1" is none'),
+            (("simc-pi", *no_delay), "without dead time Tc must be given: --Tc"),
+            (("isimc-pid", *PLANT), "it needs a plant with at most one integrator: simc-pid takes two"),
+            (("imc-pi", *pure), "without dead time Tc must be given: --Tc"),
+            (("zn-pi", *oscillating), 'it needs a plant of real lags without zeros or integrators, and "tf:1/1,0.1,1" is none'),
+            (("tyreus-luyben-pi", *no_delay), "it needs a dead time above 0"),
+            (("amigo-pi", *no_delay), "it needs a dead time above 0"),
+            (("kappa-tau-pi", *lag), "it needs a plant with one integrator"),
+            (("kappa-tau-pi", "--plant", "tf:1,2,1/1,1,0"), "the plant without its integrator must not jump"),
+            (("kappa-tau-pi", *pure), "the plant without its integrator has no steepest tangent"),
+            (("taguchi-pi", "--plant", "tf:1/2,3,1,0", "--Td", "1"),
+             "besides the integrator it takes no lag, one, or two equal ones"),
+            (("ho-pid", *lag, "--m", "0", "--n", "0", "--KHF", "3", "--Ts", "0.1"),
+             "a noise gain needs a filter: --n 1 or more"),
+            (("ho-pid", *lag, "--m", "1", "--n", "1", "--KHF", "0.001", "--Ts", "0.1"),
+             "no filter constant gives this noise gain with gains that are optimal for it"),
+            (("ho-pid", *no_delay, "--m", "0"),
+             "the controller could cancel the whole plant, and no finite gains are optimal: give a filter, or a lower --m"),
+            (("huba2021-jrm", "--plant", "ipdt"), 'it needs a stable plant of real lags without zeros, and "ipdt" is none'),
+            (("huba2021-jrm", *lag, "--lags", "2"), "--lags 2: the plant has 1"),
+            (("huba2021-jrm", *lag, "--lags", "0"), "--lags 0 is for a plant that is a dead time alone"),
+            (("huba2021-jrm", *no_delay), "without dead time Tc must be given: --Tc"),
+            (("huba2022-trdp", "--plant", "dipdt", "--Td", "0"), "it needs a dead time above 0"),
+            (("kos2021-pi", *lag), 'it needs a plant with one integrator, and "fotd" has 0'),
+            (("kos2021-pi", *pure), "the area A_1 is 0: an integrator alone has no optimum"),
+            (("kos2021-pi", "--plant", "tf:1/10,0.1,1,0"),
+             "A_1^2 + (1 - b^2)(A_0 A_2 - A_1^2) < 0, the gain would be complex: the plant oscillates too much"),
+            (("kos2021-pid", "--plant", "ipdt"), "its controller has a filter: give --Tf, or --KHF for Kd/Tf"),
+            (("kos2021-pid-fh", "--plant", "tf:1,1/1,0.2,1,0", "--Tf", "0.1"),
+             "the quartic (5.11) for Ti has no positive root: the plant oscillates too much"),
+        ]
+        for arguments, message in cases:
+            with self.subTest(arguments=arguments):
+                self.assert_fails(self.run_program("tune", *arguments), 2, f"{arguments[0]}: {message}")
 
     def test_wrong_input(self):
         cases = [
