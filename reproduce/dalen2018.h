@@ -18,13 +18,21 @@ const rules::RulePlant& column();
 const rules::RulePlant& submersible();
 constexpr rules::IntegratingPlant kColumn = {0.597, 0.923}, kSubmersible = {-0.145, 1.729};
 
-/// Error and plant input of k e^{-tau s}/s under PI: u held over dt, the integral by Euler, unit steps at the plant's
-/// output and input from the samples `out` and `in` on, `steps` samples in all. REQUIRES: tau/dt is whole.
+/// A plant of one integrator or lag from sample to sample, dt apart: y becomes keep y + gain u, u `delay` samples old.
+/// REQUIRES: tau/dt is whole.
+struct SampledPlant {
+  double keep, gain, dt;
+  int delay;
+};
+SampledPlant sampled_plant(const rules::IntegratingPlant& p, double dt);
+SampledPlant sampled_plant(const rules::LagDelayPlant& p, double dt);
+
+/// Error and plant input under PI: u held, the integral by Euler, unit steps at the plant's output and input from the
+/// samples `out` and `in` on, `steps` samples in all.
 struct SampledRun {
   std::vector<double> error, input;
 };
-SampledRun sampled_run(const rules::IntegratingPlant& p, const StandardForm& f, double dt, int out, int in,
-                       int steps);
+SampledRun sampled_run(const SampledPlant& p, const StandardForm& f, int out, int in, int steps);
 
 /// Best method products: Tables 1, 3, 4, 5; distances from the front: Tables 2, 7, 9, 11, 13.
 std::vector<Maker> dalen2018_product_makers();

@@ -76,13 +76,14 @@ SampledIndices sampled_indices(const IntegratingPlant& p, const StandardForm& f,
   constexpr double dt = 0.01;
   constexpr int kNever = std::numeric_limits<int>::max();
   const int in = static_cast<int>(std::lround(T1 / dt));
+  const SampledPlant plant = sampled_plant(p, dt);
   SampledIndices sum;
-  const std::vector<double> both = sampled_run(p, f, dt, 0, in, 2 * in).error;
+  const std::vector<double> both = sampled_run(plant, f, 0, in, 2 * in).error;
   for (std::size_t k = 0; k < both.size(); ++k) {
     const double t = static_cast<double>(k) * dt;
     sum.ITAE += t * std::abs(both[k]), sum.ITSE += t * both[k] * both[k];
   }
-  const std::vector<double> alone = sampled_run(p, f, dt, kNever, 0, in).error;
+  const std::vector<double> alone = sampled_run(plant, f, kNever, 0, in).error;
   for (std::size_t k = 0; k < alone.size(); ++k)
     sum.IAE_vu += std::abs(alone[k]), sum.ITAE_vu += static_cast<double>(k) * dt * std::abs(alone[k]);
   return sum;

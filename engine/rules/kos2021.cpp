@@ -56,12 +56,18 @@ struct FilteredPid {
   ParallelForm form;
 };
 
-FilteredPid pid_with_filter(std::string_view rule, const Areas& plant, double b, double Tf) {
+std::optional<FilteredPid> found_pid(const Areas& plant, double b, double Tf) {
   const Areas with_filter = filtered(plant, Tf, 1);
   const auto form = integrating_pid(with_filter, b);
-  if (!form)
+  if (!form) return std::nullopt;
+  return FilteredPid{Tf, with_filter, *form};
+}
+
+FilteredPid pid_with_filter(std::string_view rule, const Areas& plant, double b, double Tf) {
+  const auto found = found_pid(plant, b, Tf);
+  if (!found)
     fail_precondition(rule, "the quartic (5.11) for Ti has no positive root: the plant oscillates too much");
-  return {Tf, with_filter, *form};
+  return *found;
 }
 
 /// Tf given, or in turn with the gains until Kd/Tf = K_HF.                                   [Kos2021 (5.3), Remark 5.3]
@@ -69,12 +75,11 @@ FilteredPid filtered_pid(std::string_view rule, const Areas& plant, double b, co
   if (choices.has("Tf")) return pid_with_filter(rule, plant, b, choices.positive("Tf"));
   if (!choices.has("KHF")) fail_precondition(rule, "its controller has a filter: give --Tf, or --KHF for Kd/Tf");
   const double K_HF = choices.positive("KHF");
-  double Tf = 0;
-  for (int turn = 0; turn < 200; ++turn) {
-    const FilteredPid found = pid_with_filter(rule, plant, b, Tf);
-    const double next = std::abs(found.form.Kd) / K_HF;
-    if (std::abs(next - Tf) <= 1e-14 * next) return found;
-    Tf = next;
+  std::optional<FilteredPid> found = pid_with_filter(rule, plant, b, 0);
+  for (int turn = 0; found && turn < 200; ++turn) {
+    const double next = std::abs(found->form.Kd) / K_HF;
+    if (std::abs(next - found->Tf) <= 1e-14 * next) return *found;
+    found = found_pid(plant, b, next);
   }
   fail_precondition(rule, fmt::format("no filter constant gives Kd/Tf = {}", K_HF));
 }

@@ -179,6 +179,7 @@ class Tune(ProgramTest):
             (("kos2021-pi", "--plant", "tf:1/10,0.1,1,0"),
              "A_1^2 + (1 - b^2)(A_0 A_2 - A_1^2) < 0, the gain would be complex: the plant oscillates too much"),
             (("kos2021-pid", "--plant", "ipdt"), "its controller has a filter: give --Tf, or --KHF for Kd/Tf"),
+            (("kos2021-pid", "--plant", "ipdt", "--KHF", "1e-9"), "no filter constant gives Kd/Tf = 1e-09"),
             (("kos2021-pid-fh", "--plant", "tf:1,1/1,0.2,1,0", "--Tf", "0.1"),
              "the quartic (5.11) for Ti has no positive root: the plant oscillates too much"),
         ]
