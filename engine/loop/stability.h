@@ -19,7 +19,10 @@
 
 namespace portrait {
 
-/// Roots in the open right half-plane. REQUIRES: high_frequency_gain(loop) < 1 (else infinitely many).
+/// More are not counted: a crossover far above 1/Td can stand for more turns than any integer holds.
+inline constexpr int kMostRoots = 1'000'000'000;
+
+/// Roots in the open right half-plane, at most kMostRoots. REQUIRES: high_frequency_gain(loop) < 1 (else infinitely many).
 int unstable_roots(const OpenLoop& loop);
 
 /// Every root in the open left half-plane; a neutral loop uniformly so.

@@ -53,6 +53,7 @@ void reuse_address(socket_t socket) {
 void OpenConnections::opened(int socket) {
   const std::lock_guard lock(mutex_);
   open_[socket] = {false, Clock::now()};
+  if (ended_) ::shutdown(socket, SHUT_RDWR);
 }
 
 void OpenConnections::waiting(int socket, bool is_waiting) {
@@ -82,6 +83,7 @@ bool OpenConnections::end_longest_waiting() {
 
 void OpenConnections::end_all() {
   const std::lock_guard lock(mutex_);
+  ended_ = true;
   for (const auto& [socket, state] : open_) ::shutdown(socket, SHUT_RDWR);
 }
 

@@ -42,7 +42,7 @@ class OpenConnections {
   void close(int socket);
   /// Ends the connection that has waited longest for its client; false when none does.
   bool end_longest_waiting();
-  /// Ends all.
+  /// Ends all, and those that are opened later.
   void end_all();
 
  private:
@@ -53,6 +53,7 @@ class OpenConnections {
   };
   std::mutex mutex_;
   std::map<int, State> open_;
+  bool ended_ = false;
 };
 
 /// Threads for connections, made as needed and kept. A thread that httplib hands a connection to runs it to its end.

@@ -100,6 +100,19 @@ TEST_F(PageThreads, GiveEachClientItsAnswer) {
   for (const std::string& text : differs) EXPECT_EQ(text, "");
 }
 
+/// Accepted before the end, begun after it: it would be waited for until its client has been idle for long enough.
+TEST(OpenConnections, EndsThoseThatComeTooLate) {
+  int ends[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+  page::OpenConnections open;
+  open.end_all();
+  open.opened(ends[0]);
+  char byte = 0;
+  EXPECT_EQ(::recv(ends[1], &byte, 1, MSG_DONTWAIT), 0) << "the other side sees the end";
+  open.close(ends[0]);
+  ::close(ends[1]);
+}
+
 TEST_F(PageThreads, EndWhileClientsStillTalk) {
   std::atomic<bool> ended = false;
   std::vector<std::thread> clients;
