@@ -1,5 +1,6 @@
 #include "engine/loop/loop.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -59,6 +60,20 @@ std::optional<std::string> why_prefilter_invalid(Prefilter prefilter, const Sett
   return std::nullopt;
 }
 
+double digits_from_one(double x) { return x == 0 || !std::isfinite(x) ? 0 : std::abs(std::log10(std::abs(x))); }
+
+/// |N|^2 and |D|^2 are polynomials whose coefficients double has to hold.
+std::optional<std::string> why_out_of_range(const Loop& loop) {
+  constexpr double kMostDigits = 140;
+  const Setting& s = loop.setting;
+  const PlantLags lags = plant_lags(loop);
+  double digits = std::max({digits_from_one(s.tau_i), digits_from_one(s.b), digits_from_one(s.c)});
+  for (const double gain : gains_of(loop)) digits = std::max(digits, digits_from_one(gain));
+  digits += loop.family.n * digits_from_one(s.tau_f) + lags.count * digits_from_one(lags.time);
+  if (digits <= kMostDigits) return std::nullopt;
+  return "its gains and times lie too far from 1, or in too high an order, to compute with";
+}
+
 }  // namespace
 
 std::optional<Plant> plant_named(std::string_view name) {
@@ -102,7 +117,8 @@ std::optional<std::string> why_invalid(const Loop& loop) {
   if (loop.family.plant == Plant::jotd && !finite_above_zero(s.tau_j))
     return must("tau_j", "finite and above 0", s.tau_j);
   if (loop.family.n >= 1 && !finite_above_zero(s.tau_f)) return must("tau_f", "finite and above 0", s.tau_f);
-  return why_prefilter_invalid(loop.family.prefilter, s);
+  if (auto reason = why_prefilter_invalid(loop.family.prefilter, s)) return reason;
+  return why_out_of_range(loop);
 }
 
 }  // namespace portrait

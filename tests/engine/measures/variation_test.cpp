@@ -157,6 +157,8 @@ TEST(AlternatingExtremes, CountsWhatLiesBeyondTheTolerance) {
   EXPECT_EQ(alternating_extremes(Points{0, 1, 0}, 0, 0.01), 1);
   EXPECT_EQ(alternating_extremes(Points{0, 1, -1, 1, 0}, 0, 0.01), 3);
   EXPECT_EQ(alternating_extremes(Points{0}, 0, 0), 0);
+  EXPECT_EQ(alternating_extremes(Points{1, 1.25, 0.75, 1}, 1, 0.25), 0) << "what lies at the tolerance is within it";
+  EXPECT_EQ(alternating_extremes(Points{0, -0.25, 1}, 1, 0.25), 0) << "no further beyond the start than the tolerance";
 }
 
 }  // namespace
