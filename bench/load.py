@@ -67,6 +67,10 @@ class Load:
     def __init__(self, program, folder, points):
         self.program, self.folder, self.table = str(Path(program).resolve()), Path(folder), Table()
         self.settings = points**4
+        self.folder.mkdir(parents=True, exist_ok=True)
+        for left in ("load.h5", "load.h5.run"):
+            if (self.folder / left).exists():
+                raise Wrong(f"{self.folder / left} is there already")
         (self.folder / "load.toml").write_text(GRID.format(n=points))
 
     def begin(self, *words):
@@ -177,13 +181,13 @@ class Load:
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
-    parser.add_argument("folder", help="an empty one, with room")
+    parser.add_argument("folder", help="with room; made when it is not there")
     parser.add_argument("--points", type=int, default=100, help="values of each of four axes")
     parser.add_argument("--kills", type=int, default=3)
     parser.add_argument("--compare", action="store_true")
     a = parser.parse_args()
-    load = Load(a.program, a.folder, a.points)
     try:
+        load = Load(a.program, a.folder, a.points)
         load.all(a.kills, a.compare)
     except Wrong as wrong:
         print(f"load: {wrong}", file=sys.stderr)

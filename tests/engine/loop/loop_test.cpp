@@ -67,6 +67,18 @@ TEST(WhyInvalid, Kappa) {
   EXPECT_EQ(with(kNaN), "kappa must be finite and above 0 (it is nan)");
 }
 
+/// Their squares, to the order of the loop, are what stability is found from.
+TEST(WhyInvalid, NumbersThatNoDoubleCanMultiply) {
+  const std::string far = "its gains and times lie too far from 1, or in too high an order, to compute with";
+  EXPECT_EQ(reason_after(good(), [](Setting& s) { s.kappa = 1e160; }), far);
+  EXPECT_EQ(reason_after(good(), [](Setting& s) { s.kappa = 1e-160; }), far);
+  EXPECT_EQ(reason_after(good(), [](Setting& s) { s.delta = 1e160; }), far);
+  EXPECT_EQ(reason_after(good(), [](Setting& s) { s.tau_i = 1e160; }), far);
+  EXPECT_EQ(reason_after(good(Plant::fotd), [](Setting& s) { s.tau_1 = 1e160; }), far);
+  EXPECT_EQ(reason_after(good(Plant::dipdt, 16), [](Setting& s) { s.tau_f = 1e-10; }), far);
+  EXPECT_EQ(reason_after(good(Plant::dipdt, 8), [](Setting& s) { s.tau_f = 1e-10; }), "valid");
+}
+
 TEST(WhyInvalid, IntegralTime) {
   const auto with = [](double x) { return reason_after(good(), [x](Setting& s) { s.tau_i = x; }); };
   EXPECT_EQ(with(0), "tau_i must be above 0, or inf for no integral action (it is 0)");
