@@ -34,7 +34,7 @@ constexpr std::array<PlainValue, 16> kPlainValues = {{{Parameter::c, 0},
                                                       {Parameter::K_5, 0},
                                                       {Parameter::K_6, 0}}};
 
-/// The parameter that takes the reason away when it is made plain.
+/// The parameter that takes the reason away when it is made plain; the gain, when several do only together.
 Parameter culprit(const Loop& loop, const std::string& reason) {
   const auto found = std::find_if(kPlainValues.begin(), kPlainValues.end(), [&](const PlainValue& plain) {
     if (!applies(plain.parameter, loop.family)) return false;
@@ -42,8 +42,8 @@ Parameter culprit(const Loop& loop, const std::string& reason) {
     set(changed.setting, plain.parameter, plain.value);
     return why_invalid(changed) != reason;
   });
-  PORTRAIT_CHECK(found != kPlainValues.end());
-  return found->parameter;
+  if (found != kPlainValues.end()) return found->parameter;
+  return has_gains(loop.family) ? Parameter::K_0 : Parameter::kappa;
 }
 
 bool gives(const Grid& grid, Parameter parameter) {

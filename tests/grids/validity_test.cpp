@@ -53,9 +53,12 @@ TEST(Validity, ATauDIsBlamedForItsDelta) {
 
 TEST(Validity, AProductThatOverflowsOrVanishesIsFound) {
   const LoopFamily family{Plant::dipdt, 0, Prefilter::pi};
-  const Axis kappa = Axis::list(Parameter::kappa, {1, 2, 1e200});
+  const Axis kappa = Axis::list(Parameter::kappa, {1, 2, 1e120});
   EXPECT_FALSE(find_invalid(grid_with(family, {kappa, Axis::list(Parameter::tau_d, {1, 2})})).has_value());
   EXPECT_TRUE(find_invalid(grid_with(family, {kappa, Axis::list(Parameter::tau_d, {1, 1e200})})).has_value());
+  // Neither is the only one that no double can multiply.
+  const Axis far = Axis::list(Parameter::kappa, {1e150}), slow = Axis::list(Parameter::tau_f, {1e10});
+  EXPECT_EQ(find_invalid(grid_with({Plant::dipdt, 15, Prefilter::none}, {far, slow}))->culprit, Parameter::kappa);
 
   Grid filtered = grid_with({Plant::dipdt, 1, Prefilter::full},
                             {Axis::list(Parameter::kappa, {1e-200, 1}), Axis::list(Parameter::tau_d, {1e-200, 1})});
