@@ -30,7 +30,7 @@ bool nearly_contains(const std::vector<double>& all, double value) {
 
 TEST(Catalog, EveryFileIsAGridWithTheSizeThatItsCommentSays) {
   const std::map<std::string, std::uint64_t> sizes = {
-      {"fotd-pi", 11050}, {"fotd-pid", 12150}, {"huba2022-43", 4185}, {"ipdt-pi", 8320}, {"ipdt-pid", 7216}, {"jotd-pid", 6600}};
+      {"dipdt-pid-noise", 2205}, {"fotd-pi", 11050}, {"fotd-pid", 12150}, {"huba2022-43", 4185}, {"ipdt-pi", 8320}, {"ipdt-pid", 7216}, {"jotd-pid", 6600}};
   const auto files = toml_files("grids/catalog");
   EXPECT_EQ(files.size(), sizes.size());
   for (const auto& file : files) {
