@@ -128,22 +128,19 @@ struct SignQueue::Visitor {
     if (any(crosses)) both_signs(e, zero_of<kDegree>(e, ends, crosses), part, crosses);
   }
 
-  /// Both integrals from the left end to the zero, and the rest. int_{-1}^x P_k and int_{-1}^x s P_k(s) ds are sums of two
-  /// and four polynomials; Newton's last step adds half of itself times e(x).
-  void both_signs(const Series& e, const Zero& zero, const Part& part, Mask mask) {
+  /// Both integrals from the left end to the zero at x, and the rest. int_{-1}^x P_k and int_{-1}^x s P_k(s) ds are sums of
+  /// two and four polynomials.
+  void both_signs(const Series& e, Lanes x, const Part& part, Mask mask) {
     Series by_x;
     set_times_x(by_x, e);
     Lanes P[kTerms + 1];
-    for_each_polynomial<kTerms>(zero.x, [&](int k, Lanes here) { P[k] = here; });
-    Lanes until = e[0] * (zero.x + Lanes(1.0)), moment_until = by_x[0] * (zero.x + Lanes(1.0));
+    for_each_polynomial<kTerms>(x, [&](int k, Lanes here) { P[k] = here; });
+    Lanes until = e[0] * (x + Lanes(1.0)), moment_until = by_x[0] * (x + Lanes(1.0));
     for (int k = 1; k < kTerms; ++k) {
       const Lanes integral = (P[k + 1] - P[k - 1]) * Lanes(1.0 / (2 * k + 1));
       until = mul_add(e[k], integral, until);
       moment_until = mul_add(by_x[k], integral, moment_until);
     }
-    const Lanes left_over = Lanes(0.5) * zero.step * zero.here;
-    until += left_over;
-    moment_until = mul_add(zero.x, left_over, moment_until);
     const Lanes rest = Lanes(2.0) * e[0] - until, moment_rest = Lanes(2.0) * by_x[0] - moment_until;
     const Lanes before = mul_add(part.center, until, part.half * moment_until);
     const Lanes after = mul_add(part.center, rest, part.half * moment_rest);

@@ -71,7 +71,6 @@ struct ExtremeQueue::Visitor {
   /// The signal has one degree more than its slope.
   static constexpr int kSignalDegree = degree < kDegree ? degree + 2 : kDegree;
 
-  Lanes half;
   const Powers<kSignalDegree>& f;
 
   void keeps_sign(const Series& slope, const Part& part, Mask mask) { go_on(slope[0], part, bits(mask)); }
@@ -81,10 +80,7 @@ struct ExtremeQueue::Visitor {
     const Mask starts = abs(ends.left) > Lanes(0.0), moves = starts | (abs(ends.right) > Lanes(0.0));
     go_on(select(starts, ends.left, ends.right), part, bits(mask & moves));
     if (!any(crosses)) return;
-    const Zero zero = zero_of<degree>(slope, ends, crosses);
-    // From x on Newton's last step adds half of itself times f'; f' by the panel's x.
-    const Lanes left_over = Lanes(0.5) * half * part.half * zero.step * zero.here;
-    note(f.value(part.at(zero.x)) + left_over, bits(crosses));
+    note(f.value(part.at(zero_of<degree>(slope, ends, crosses))), bits(crosses));
     queue.falling_ ^= bits(crosses);
   }
 
@@ -107,11 +103,10 @@ template <int degree>
 inline void ExtremeQueue::search_as(int slots) {
   Series slope, f;
   slope_.get_first(slope);
-  const Lanes half = half_.first();
-  set_integral(f, slope, half, mean_.first());
+  set_integral(f, slope, half_.first(), mean_.first());
   falling_ = negative_bits(start_.first());
   const Powers<Visitor<degree>::kSignalDegree> powers(f);
-  Visitor<degree> visitor{*this, half, powers};
+  Visitor<degree> visitor{*this, powers};
   search_zeros<degree>(slope, {Lanes(0.0), Lanes(1.0)}, Mask::from((1u << slots) - 1), kHalvings, visitor);
   report(slots);
 }

@@ -3,7 +3,7 @@
 /// A panel is cut in halves until in every lane either the series has no zero or its slope has none; then the series is
 /// monotonic and has one zero or none, found by Newton's method from the zero of a parabola. What is wanted at a zero is
 /// always an extreme of something (of y where y' vanishes, of the integral of e where e does), so an error of the place
-/// counts only squared.
+/// counts only squared, and that of Newton's last step to the fourth power.
 #pragma once
 
 #include "engine/kernel/legendre.inl"
@@ -87,36 +87,27 @@ class Powers {
   Lanes a_[degree + 1];
 };
 
-/// A place close to a zero of f, Newton's step -f/f' from there that is left over, and f there.
-struct Zero {
-  Lanes x, step, here;
-};
-
-/// The zero of a monotonic f that changes sign between its ends, to `kNear` of a half panel, in the lanes of `mask`. The
-/// bracket keeps Newton's method from running away. A lane that has arrived stays: its bits are its own.
+/// The zero of a monotonic f that changes sign between its ends, in the lanes of `mask`, to the square of Newton's last step,
+/// which is `kNear` of a half panel at most. The bracket keeps Newton's method from running away. A lane that has arrived
+/// stays: its bits are its own.
 template <int degree>
-inline Zero zero_of(const Series& f, const Ends& ends, Mask mask) {
+inline Lanes zero_of(const Series& f, const Ends& ends, Mask mask) {
   const Powers<degree> powers(f), slopes = Powers<degree>::derivative(powers);
-  constexpr double kNear = 3e-5;
-  Lanes left = -1.0, right = 1.0;
-  Zero zero{zero_of_parabola(ends, value_in_middle<degree>(f)), Lanes(0.0), Lanes(0.0)};
+  constexpr double kNear = 3e-4;
+  Lanes left = -1.0, right = 1.0, x = zero_of_parabola(ends, value_in_middle<degree>(f));
   Mask open = mask;
-  for (int i = 0; i < 40; ++i) {
-    const Lanes here = powers.value(zero.x);
-    zero.step = select(open, -here / slopes.value(zero.x), zero.step);
-    zero.here = select(open, here, zero.here);
+  for (int i = 0; i < 40 && any(open); ++i) {
+    const Lanes here = powers.value(x), step = -here / slopes.value(x), next = x + step;
     const Mask same_as_left = here * ends.left > Lanes(0.0);
-    left = select(same_as_left, zero.x, left);
-    right = select(same_as_left, right, zero.x);
-    const Lanes next = zero.x + zero.step;
-    const Mask inside = (next > left) & (next < right);
-    open = but_not(open, abs(zero.step) < Lanes(kNear));
-    if (!any(open)) break;
-    zero.x = select(open, select(inside, next, Lanes(0.5) * (left + right)), zero.x);
+    left = select(same_as_left, x, left);
+    right = select(same_as_left, right, x);
+    const Mask inside = (next > left) & (next < right), arrived = abs(step) < Lanes(kNear);
+    // Where f is nothing but rounding no step means anything.
+    const Lanes otherwise = select(arrived, x, Lanes(0.5) * (left + right));
+    x = select(open, select(inside, next, otherwise), x);
+    open = but_not(open, arrived);
   }
-  // Where f is nothing but rounding no step means anything.
-  zero.step = select(abs(zero.step) < Lanes(kNear), zero.step, Lanes(0.0));
-  return zero;
+  return x;
 }
 
 /// Cuts f on `part` until, in the lanes of `mask`, it is known where f vanishes, and tells the visitor, part after part:
