@@ -22,14 +22,20 @@ class ErrorMeter;
 /// Panels of single lanes on which the error may change its sign.
 class SignQueue {
  public:
+  template <int degree>
   void push(ErrorMeter& meter, unsigned lanes, const Series& f, double middle, double half);
   void flush() {
     if (size_ > 0) search(size_);
   }
 
  private:
+  template <int degree>
   struct Visitor;
-  void search(int slots);
+
+  /// As in ExtremeQueue.
+  void search(int slots) { is_smooth_ ? search_as<kSmoothDegree>(slots) : search_as<kDegree>(slots); }
+  template <int degree>
+  void search_as(int slots);
 
   WaitingSeries e_;
   WaitingRow middle_, half_;
@@ -37,6 +43,7 @@ class SignQueue {
   ErrorMeter* meter_[2 * kLanes];
   int lane_[2 * kLanes];
   int size_ = 0;
+  bool is_smooth_ = false;  ///< all that waits has degree kSmoothDegree
 };
 
 /// e = offset + scale f
@@ -61,14 +68,16 @@ class ErrorMeter {
     return bits(but_not(active, sure));
   }
 
+  template <int degree>
   void look_at(unsigned lanes, const Error& e, double middle, double half) {
     lanes &= bits(abs(mul_add(scale_, e.f[0], offset_)) + abs(scale_) * e.rest > Lanes(0.0));
-    if (lanes != 0) queue_->push(*this, lanes, e.f, middle, half);
+    if (lanes != 0) queue_->push<degree>(*this, lanes, e.f, middle, half);
   }
 
+  template <int degree>
   void watch(const Error& e, double middle, double half, Mask active) {
     const unsigned unsure = see(e, middle, half, active);
-    if (unsure != 0) look_at(unsure, e, middle, half);
+    if (unsure != 0) look_at<degree>(unsure, e, middle, half);
   }
 
   /// All that waits in the queue goes into the integrals. Call it before reading them.
@@ -102,8 +111,10 @@ class ErrorMeter {
   Lanes iae_of_queue_, itae_of_queue_;
 };
 
+template <int degree>
 inline void SignQueue::push(ErrorMeter& meter, unsigned lanes, const Series& f, double middle, double half) {
-  e_.push(f, meter.scale(), meter.offset(), lanes, size_);
+  is_smooth_ = degree == kSmoothDegree && (is_smooth_ || size_ == 0);
+  e_.push<degree>(f, meter.scale(), meter.offset(), lanes, size_);
   middle_.push_all(middle, size_);
   half_.push_all(half, size_);
   for (; lanes != 0; lanes &= lanes - 1, ++size_) {
@@ -114,8 +125,10 @@ inline void SignQueue::push(ErrorMeter& meter, unsigned lanes, const Series& f, 
 }
 
 /// What zeros.inl finds of the errors. Parts are in time.
+template <int degree>
 struct SignQueue::Visitor {
   SignQueue& queue;
+  static constexpr int kMomentDegree = degree < kDegree ? degree + 1 : kDegree;  ///< of x e
 
   void keeps_sign(const Series& e, const Part& part, Mask mask) {
     const Lanes length = Lanes(2.0) * part.half;
@@ -125,20 +138,20 @@ struct SignQueue::Visitor {
   void may_cross(const Series& e, const Part& part, const Ends& ends, Mask mask) {
     const Mask crosses = mask & (ends.left * ends.right < Lanes(0.0));
     keeps_sign(e, part, but_not(mask, crosses));
-    if (any(crosses)) both_signs(e, zero_of<kDegree>(e, ends, crosses), part, crosses);
+    if (any(crosses)) both_signs(e, zero_of<degree>(e, ends, crosses), part, crosses);
   }
 
   /// Both integrals from the left end to the zero at x, and the rest. int_{-1}^x P_k and int_{-1}^x s P_k(s) ds are sums of
   /// two and four polynomials.
   void both_signs(const Series& e, Lanes x, const Part& part, Mask mask) {
     Series by_x;
-    set_times_x(by_x, e);
-    Lanes P[kTerms + 1];
-    for_each_polynomial<kTerms>(x, [&](int k, Lanes here) { P[k] = here; });
+    set_times_x<degree>(by_x, e);
+    Lanes P[kMomentDegree + 2];
+    for_each_polynomial<kMomentDegree + 1>(x, [&](int k, Lanes here) { P[k] = here; });
     Lanes until = e[0] * (x + Lanes(1.0)), moment_until = by_x[0] * (x + Lanes(1.0));
-    for (int k = 1; k < kTerms; ++k) {
+    for (int k = 1; k <= kMomentDegree; ++k) {
       const Lanes integral = (P[k + 1] - P[k - 1]) * Lanes(1.0 / (2 * k + 1));
-      until = mul_add(e[k], integral, until);
+      if (k <= degree) until = mul_add(e[k], integral, until);
       moment_until = mul_add(by_x[k], integral, moment_until);
     }
     const Lanes rest = Lanes(2.0) * e[0] - until, moment_rest = Lanes(2.0) * by_x[0] - moment_until;
@@ -153,12 +166,13 @@ struct SignQueue::Visitor {
   }
 };
 
-inline void SignQueue::search(int slots) {
+template <int degree>
+inline void SignQueue::search_as(int slots) {
   Series e;
   e_.get_first(e);
   iae_ = itae_ = Lanes(0.0);
-  Visitor visitor{*this};
-  search_zeros<kDegree>(e, {middle_.first(), half_.first()}, Mask::from((1u << slots) - 1), kHalvings, visitor);
+  Visitor<degree> visitor{*this};
+  search_zeros<degree>(e, {middle_.first(), half_.first()}, Mask::from((1u << slots) - 1), kHalvings, visitor);
   for (int slot = 0; slot < slots; ++slot)
     meter_[slot]->add(lane_[slot], lane_of(iae_, slot), lane_of(itae_, slot));
   size_ -= slots;

@@ -124,13 +124,14 @@ inline void set_integral(Series& to, const Series& f, Lanes half, Lanes mean) {
   }
 }
 
-/// to = x f: x P_k = ((k+1) P_{k+1} + k P_{k-1})/(2k + 1), the highest term dropped.
+/// to = x f: x P_k = ((k+1) P_{k+1} + k P_{k-1})/(2k + 1), what exceeds kDegree dropped. One degree more than f has.
+template <int degree = kDegree>
 inline void set_times_x(Series& to, const Series& f) {
   to[0] = f[1] * Lanes(1.0 / 3);
-  for (int k = 1; k < kDegree; ++k)
-    to[k] =
-        mul_add(f[k - 1], Lanes(static_cast<double>(k) / (2 * k - 1)), f[k + 1] * Lanes((k + 1.0) / (2 * k + 3)));
-  to[kDegree] = f[kDegree - 1] * Lanes(static_cast<double>(kDegree) / (2 * kDegree - 1));
+  for (int k = 1; k <= degree + 1 && k <= kDegree; ++k) {
+    const Lanes from_below = f[k - 1] * Lanes(static_cast<double>(k) / (2 * k - 1));
+    to[k] = k < degree ? mul_add(f[k + 1], Lanes((k + 1.0) / (2 * k + 3)), from_below) : from_below;
+  }
 }
 
 /// Exact smallest and largest value of c_0 + c_1 x + c_2 P_2(x) on [-1, 1].

@@ -154,7 +154,7 @@ class Run {
       watch_output<kDegree>(1, p, false);
       if (pack_.samples) sample_output<kDegree>(0, p);
       const double half = panels_[p].half;
-      if (both_) w_.e.watch({chain_.sum, Lanes(0.0), chain_.of_sum}, panels_[p].start + half, half, active_);
+      if (both_) w_.e.template watch<kDegree>({chain_.sum, Lanes(0.0), chain_.of_sum}, panels_[p].start + half, half, active_);
     }
     dead_times = Lanes(1.0);
   }
@@ -189,7 +189,7 @@ class Run {
     watch_output<degree>(k + 1, p, looks(k));
     if (both_) {
       watch_signal_of<degree>(w_.y, derived_output_signal(), k, p, looks(k), false, course_of_derived(k));
-      watch_error_of(w_.e, derived_error(), k, p);
+      watch_error_of<degree>(w_.e, derived_error(), k, p);
       watch_signal_of<degree>(w_.u, derived_input_signal(), k - 1, p, looks(k), kInputJumps, course_of_derived(k));
     }
     watch_signal_of<degree>(own().u, input_signal(p), k, p, looks(k), kInputJumps, course_of_input(k));
@@ -272,16 +272,21 @@ class Run {
   }
   Sampler sampler(bool of_w, bool of_y) const { return sampler_of(pack_, of_w, of_y); }
 
+  /// Once layers have faded the ends of series get smaller from one dead time to the next: then they are watched where the
+  /// degree falls, and where it is asked which lanes are at rest.
+  bool watches_ends(int k) const { return k < 8 || k <= pack_.layered_intervals || k == pack_.smooth_from; }
+
   /// A panel inside the response, where no meter does anything but watch.
   template <int degree>
   void watch_inside(int k, int p) {
     const double half = panels_[p].half, middle = k + panels_[p].start + half;
     const unsigned on = bits(active_);
     StepMeters& m = own();
-    if (both_) watch_derived_inside<degree>(panels_[p], middle, on);
+    if (both_) watch_derived_inside<degree>(k, panels_[p], middle, on);
     const Signal y = output_signal(p), u = input_signal(p);
     const Error e = output_error(p);
-    const auto y_seen = m.y.template see<degree>(y, active_), u_seen = m.u.template see<degree>(u, active_);
+    const auto y_seen = m.y.see(y, active_), u_seen = m.u.see(u, active_);
+    if (watches_ends(k)) m.y.template see_end<degree>(y, active_), m.u.template see_end<degree>(u, active_);
     const unsigned e_open = m.e.see(e, middle + 1, half, active_);
     if (!m.u.goes_on(u_seen, on)) {
       chain_.template complete_input<degree>(panels_[p], outputs_[p]);
@@ -289,20 +294,21 @@ class Run {
     }
     if (m.y.goes_on(y_seen, on) & (e_open == 0)) return;
     m.y.take_in(y_seen, y, half, on);
-    if (e_open != 0) m.e.look_at(e_open, e, middle + 1, half);
+    if (e_open != 0) m.e.template look_at<degree>(e_open, e, middle + 1, half);
   }
 
   template <int degree>
-  void watch_derived_inside(const Panel& panel, double middle, unsigned on) {
+  void watch_derived_inside(int k, const Panel& panel, double middle, unsigned on) {
     const Signal y = derived_output_signal(), u = derived_input_signal();
     const Error e = derived_error();
-    const auto y_seen = w_.y.template see<degree>(y, active_), u_seen = w_.u.template see<degree>(u, active_);
+    const auto y_seen = w_.y.see(y, active_), u_seen = w_.u.see(u, active_);
+    if (watches_ends(k)) w_.y.template see_end<degree>(y, active_), w_.u.template see_end<degree>(u, active_);
     const unsigned e_open = w_.e.see(e, middle, panel.half, active_);
     if (w_.y.goes_on(y_seen, on) & w_.u.goes_on(u_seen, on) & (e_open == 0)) return;
     chain_.template complete_sum<degree>(panel);
     w_.y.take_in(y_seen, y, panel.half, on);
     w_.u.take_in(u_seen, u, panel.half, on);
-    if (e_open != 0) w_.e.look_at(e_open, e, middle, panel.half);
+    if (e_open != 0) w_.e.template look_at<degree>(e_open, e, middle, panel.half);
   }
 
   Signal output_signal(int p) const {
@@ -333,7 +339,7 @@ class Run {
   template <int degree>
   void watch_output(int k, int p, bool look) {
     watch_signal_of<degree>(own().y, output_signal(p), k, p, look, false, course_of_output(k));
-    watch_error_of(own().e, output_error(p), k, p);
+    watch_error_of<degree>(own().e, output_error(p), k, p);
   }
 
   template <int degree>
@@ -343,8 +349,9 @@ class Run {
     at.course = course;
     watch_signal<degree>(meter, s, at, may_jump, active_, quiet_);
   }
+  template <int degree>
   void watch_error_of(ErrorMeter& meter, const Error& e, int k, int p) {
-    if (reaches(k, p)) watch_error(meter, e, place(k, p, false), active_);
+    if (reaches(k, p)) watch_error<degree>(meter, e, place(k, p, false), active_);
   }
 
   /// Whether panel p of interval k has a part before the horizon.

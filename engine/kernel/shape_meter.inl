@@ -55,11 +55,14 @@ class ShapeMeter {
     unsigned sure, falls;
   };
 
-  template <int degree>
-  Sight see(const Signal& s, Mask active) {
-    tail_ = select(active, max(tail_, mul_add(kBeforeLast<degree>, abs(s.f[degree - 1]), abs(s.f[degree]))), tail_);
-    mean_ = select(active, max(mean_, abs(s.mean)), mean_);
+  static Sight see(const Signal& s, Mask active) {
     return {bits(active & (abs(s.slope[0]) > s.slope_rest)), negative_bits(s.slope[0])};
+  }
+
+  /// Where a panel's series ends.
+  template <int degree>
+  void see_end(const Signal& s, Mask active) {
+    tail_ = select(active, max(tail_, mul_add(kBeforeLast<degree>, abs(s.f[degree - 1]), abs(s.f[degree]))), tail_);
   }
 
   /// Whether in all of these lanes the signal goes on as before: then a panel needs nothing but to be seen.
@@ -76,7 +79,9 @@ class ShapeMeter {
   template <int degree>
   void watch(const Signal& s, double half, Mask active, Course course = Course::open) {
     const unsigned on = bits(active);
-    Sight sight = see<degree>(s, active);
+    see_end<degree>(s, active);
+    see_size(s, active);
+    Sight sight = see(s, active);
     if (course != Course::open) sight = {on, course == Course::falls ? on : 0};
     take_in(sight, s, half, on);
   }
@@ -148,7 +153,10 @@ class ShapeMeter {
     known_ |= lanes;
   }
 
+  void see_size(const Signal& s, Mask active) { mean_ = select(active, max(mean_, abs(s.mean)), mean_); }
+
   __attribute__((noinline)) void watch_closely(const Signal& s, double half, unsigned on, unsigned sure) {
+    see_size(s, Mask::from(on & ~sure));
     // What moves less than rounding has no direction.
     const Lanes least = Lanes(kNegligible / half) * mean_;
     const unsigned moves = on & bits(abs(s.slope[0]) + s.slope_rest > least);
@@ -200,7 +208,7 @@ class ShapeMeter {
   Lanes scale_;  ///< x/f
   // Of f:
   Lanes passed_;              ///< value at the end of the last panel passed
-  Lanes mean_;                ///< largest mean of a panel
+  Lanes mean_;                ///< largest mean of a panel, of those where the signal may turn and of some others
   Lanes tail_, smooth_tail_;  ///< largest last coefficients: of the degree in use, of the one before
   unsigned falling_ = 0;      ///< direction since the last turning point, a bit a lane
   unsigned known_ = 0;        ///< lanes that have a direction

@@ -86,12 +86,13 @@ __attribute__((noinline)) void watch_signal(ShapeMeter& meter, const Signal& s, 
   if (at.look) quiet = quiet & meter.is_quiet(s, kQuiet);
 }
 
-inline void watch_error(ErrorMeter& meter, const Error& e, const Place& at, Mask active) {
-  if (!at.is_cut()) return meter.watch(e, at.middle, at.half, active);
+template <int degree>
+void watch_error(ErrorMeter& meter, const Error& e, const Place& at, Mask active) {
+  if (!at.is_cut()) return meter.watch<degree>(e, at.middle, at.half, active);
   Series cut;
   set_cut_off(cut, e.f, at.end);
   const double half = 0.5 * at.half * (at.end + 1);
-  meter.watch({cut, rest_bound(cut, 1), error_sums_of(cut)}, at.middle - at.half + half, half, active);
+  meter.watch<kDegree>({cut, rest_bound(cut, 1), error_sums_of(cut)}, at.middle - at.half + half, half, active);
 }
 
 }  // namespace portrait::PORTRAIT_ISA_NAME

@@ -25,9 +25,11 @@ class WaitingSeries {
     for (int k = degree + 1; k < kTerms; ++k) rows_[k].push_all(0.0, size);
   }
   /// offset + scale f
+  template <int degree>
   void push(const Series& f, Lanes scale, Lanes offset, unsigned lanes, int size) {
     rows_[0].push(mul_add(scale, f[0], offset), lanes, size);
-    for (int k = 1; k < kTerms; ++k) rows_[k].push(scale * f[k], lanes, size);
+    for (int k = 1; k <= degree; ++k) rows_[k].push(scale * f[k], lanes, size);
+    for (int k = degree + 1; k < kTerms; ++k) rows_[k].push_all(0.0, size);
   }
   void get_first(Series& f) const {
     for (int k = 0; k < kTerms; ++k) f[k] = rows_[k].first();
