@@ -1,8 +1,9 @@
 /// merge_rate [SETTINGS [FOLDER]]
 ///
-/// How fast two shards of a grid become one portrait and how fast that is verified, in MB/s of the file, and in how much
-/// memory. Values are made up: half of the columns smooth but otherwise random, a quarter constant, a quarter NaN. Each step
-/// runs in a process of its own, so that its peak is its own. In the end the merged file is compared with what went in.
+/// How fast two shards of a grid become one portrait and how fast that is verified, in MB/s of the file, how fast the
+/// program exports it, in MB/s of the table, and in how much memory. Values are made up: half of the columns smooth but
+/// otherwise random, a quarter constant, a quarter NaN. Each step runs in a process of its own, so that its peak is its own.
+/// The merged file is compared with what went in, and the tables' numbers of rows with what they must be.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -103,6 +104,29 @@ void check(const std::filesystem::path& path, const Grid& grid) {
     }
 }
 
+/// `portrait export`, the program, with some options; the table's size in MB.
+struct Exported {
+  Cost cost;
+  double table = 0;
+};
+
+Exported exported(const std::filesystem::path& portrait, const std::string& table, std::vector<std::string> options) {
+  const std::filesystem::path path = portrait.parent_path() / table;
+  std::vector<std::string> words = {PORTRAIT_PROGRAM, "export", portrait.string(), "-o", path.string(), "--force", "--quiet"};
+  words.insert(words.end(), options.begin(), options.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const Cost cost = cost_of("export", [&] {
+    execv(PORTRAIT_PROGRAM, pointers.data());
+    throw std::runtime_error("cannot run " PORTRAIT_PROGRAM);
+  });
+  const double size = static_cast<double>(std::filesystem::file_size(path)) * 1e-6;
+  std::filesystem::remove(path);
+  std::filesystem::remove(path.string() + ".json");
+  return {cost, size};
+}
+
 void print(const char* what, const Cost& cost, double file) {
   fmt::print("{:<22}{:>9.2f} s{:>9.0f} MB/s{:>9.0f} MB of memory\n", what, cost.seconds, file / cost.seconds, cost.megabytes);
 }
@@ -123,11 +147,24 @@ void measure(std::uint64_t settings, const std::filesystem::path& folder) {
   const double file = static_cast<double>(std::filesystem::file_size(path)) * 1e-6;
   const Cost verified = cost_of("verify", [&] { verify(path); });
   check(path, grid);
+  const std::string half = "IAE_w <= 2";  // of settings: it is 2 and a sine
+  const Exported everything = exported(path, "merge_rate.npy", {});
+  const Exported text = exported(path, "merge_rate.csv", {"--measures", "IAE_w,Ms"});
+  const Exported found = exported(path, "merge_rate.npy", {"--where", half});
+  const Exported found_text = exported(path, "merge_rate.csv", {"--where", half, "--measures", "IAE_w,Ms"});
+  const double row = 8.0 * static_cast<double>(grid.axes.size() + grid.measures.size()) + 1;
+  const double wanted = static_cast<double>(setting_count(grid)) * row * 1e-6;
+  if (std::abs(everything.table - wanted) > 0.01 || found.table < 0.3 * wanted || found.table > 0.7 * wanted)
+    throw std::runtime_error("the exported table has not the rows that it must have");
   fmt::print("{}: {} settings, {} measures, {:.0f} MB in the file\n", program_version(), setting_count(grid),
              grid.measures.size(), file);
   print("write, two shards", written, file);
   print("merge", merged, file);
   print("verify", verified, file);
+  print("export, NPY", everything.cost, everything.table);
+  print("export, CSV", text.cost, text.table);
+  print("export of half, NPY", found.cost, found.table);
+  print("export of half, CSV", found_text.cost, found_text.table);
   std::filesystem::remove(path);
 }
 

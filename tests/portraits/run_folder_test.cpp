@@ -121,6 +121,18 @@ TEST_F(RunFolders, another_grid_or_method_is_refused_with_what_differs) {
   EXPECT_NE(method.find("the method: sample, now kernel, base"), std::string::npos) << method;
 }
 
+TEST_F(RunFolders, another_version_is_refused_with_what_differs) {
+  write(*begin(), 4);
+  const RunManifest now = manifest_of(grid_, provenance_);
+  RunManifest earlier = now;
+  earlier.program = "portrait 0.0.1";
+  earlier.schema_version = "1.0.0";
+  put_bytes(folder().manifest(), json_text(earlier));
+  EXPECT_EQ(message_of<InputError>([&] { begin(); }),
+            folder().path().string() + " is of another run (--force throws it away):\n  the format: 1.0.0, now " +
+                now.schema_version + "\n  the program: portrait 0.0.1, now " + now.program);
+}
+
 TEST_F(RunFolders, shards_make_the_portrait_of_the_whole) {
   const std::string expected = whole();
   for (const int number : {3, 1}) write(*begin(RunStart::resume, {number, 3}), 100);

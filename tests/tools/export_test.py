@@ -122,6 +122,41 @@ class Export(ProgramTest):
         # u times K Td^2, time in Td: IAE_d in real units is K Td^3 times the normalised one.
         numpy.testing.assert_allclose([float(row["IAE_d"]) for row in everything], kept * 2 * 0.5**3, rtol=1e-14)
 
+    def test_the_best_of_a_slice(self):
+        asked = ("--minimize", "IAE_d", "--where", "Ms <= 2", "--top", "8")
+        table = self.export("best.npy", *asked, "--slice", "tau_f=0.2")
+        query = self.run_program("query", "g.h5", *asked, "--where", "tau_f == 0.2", "--json").json["top"]
+        self.assertEqual(list(table["tau_f"]), [0.2] * 8)
+        self.assertEqual(list(table["IAE_d"]), [best["measures"]["IAE_d"] for best in query])
+        about = self.about("best.npy")
+        self.assertEqual((about["slice"], about["minimize"], about["shape"]), ({"tau_f": 0.2}, "IAE_d", [8]))
+
+    def test_a_plant_takes_the_slice_of_its_lag(self):
+        self.write("lag.toml", """plant = "fotd"
+n = 0
+horizon = 60
+[parameters]
+tau_1 = [1, 2, 4]
+kappa = [0.4, 0.6]
+tau_d = [0.1, 0.2, 0.3]
+tau_i = 2
+""")
+        self.assertEqual(self.run_program("sweep", "lag.toml", "-o", "lag.h5", "--quiet").code, 0)
+        with h5py.File(self.folder / "lag.h5") as file:
+            kept = file["Ms"][...]
+        for options, rows in ((("--plant", "K=2,Td=0.5,T1=1"), kept[1].ravel()), ((), kept.ravel())):
+            self.assertEqual(self.run_program("export", "lag.h5", "-o", "lag.npy", "--force", "--quiet", *options).code, 0)
+            table = numpy.load(self.folder / "lag.npy")
+            self.assert_same(table["Ms"].ravel(), rows)
+            self.assertEqual([name for name in table.dtype.names if name in ("Kc", "Ti", "TD", "Tf")], ["Kc", "Ti", "TD"] if options else [])
+            names = [axis["name"] for axis in self.about("lag.npy")["axes"]]
+            self.assertEqual(names, ["kappa", "tau_d"] if options else ["tau_1", "kappa", "tau_d"])
+        self.assertEqual(self.run_program("export", "lag.h5", "-o", "lag.npy", "--force", "--quiet", "--minimize", "Ms", "--top", "18").code, 0)
+        table = numpy.load(self.folder / "lag.npy")
+        self.assertGreater(len(table), 10)
+        self.assertEqual(set(table["tau_d"]), {0.1, 0.2, 0.3})
+        self.assertEqual(list(table["Ms"]), sorted(table["Ms"]))
+
     def test_csv_to_stdout(self):
         result = self.run_program("export", "g.h5", "--slice", "kappa=0.2,delta=0.7,tau_i=8", "--measures", "Ms")
         lines = result.out.splitlines()

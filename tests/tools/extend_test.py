@@ -6,6 +6,8 @@ import signal
 import subprocess
 import time
 
+import h5py
+
 import program
 from program import ProgramTest
 
@@ -146,6 +148,55 @@ class Extend(ProgramTest):
         other = self.run_program("sweep", "new.toml", "--extend", "old.h5", "-o", "new.h5", env={**os.environ, "PORTRAIT_ISA": "base"})
         self.assertRegex(other.err, r"the method: kernel, \w+, now kernel, base \(PORTRAIT_ISA chooses the instruction set\)")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["new.toml", "old.h5", "old.toml"])
+
+    def test_all_else_that_decides_a_number_is_compared(self):
+        text = """plant = "dipdt"
+n = 1
+horizon = 30
+sampling = 0.1
+noise = 0.1
+seeds = 2
+measures = ["IAE_w", "noise_gain", "noisy_TV_uw"]
+[parameters]
+kappa = [0.1, 0.2]
+delta = 0.6
+tau_i = 8
+tau_f = 0.1
+"""
+        self.write("old.toml", text)
+        self.assertEqual(self.run_program("sweep", "old.toml", "-o", "old.h5", "--quiet").code, 0)
+        refused = "old.h5 cannot be extended to this grid:\n  "
+        noise = "uniform of 0.1 held over 0.1, 2 seeds from 1"
+        for was, now, message in (("n = 1", 'n = 1\nprefilter = "pi"', "prefilter: full, now pi"),
+                                  ("sampling = 0.1", "sampling = 0.2",
+                                   f"sampling: 0.1, now 0.2\n  noise: {noise}, now {noise.replace('held over 0.1', 'held over 0.2')}"),
+                                  ("noise = 0.1", "noise = 0.2", f"noise: {noise}, now {noise.replace('of 0.1', 'of 0.2')}"),
+                                  ("seeds = 2", "seeds = 3", f"noise: {noise}, now {noise.replace('2 seeds', '3 seeds')}"),
+                                  ("noise = 0.1", 'noise = 0.1\nnoise_kind = "gaussian"', f"noise: {noise}, now {noise.replace('uniform', 'gaussian')}")):
+            self.write("new.toml", text.replace(was, now))
+            self.assert_fails(self.extend(), 2, refused + message)
+        self.write("new.toml", text.replace('"noise_gain", "noisy_TV_uw"', '"IAE_w"').replace('["IAE_w", "IAE_w"]', '["IAE_w"]')
+                   .replace("noise = 0.1\nseeds = 2\n", "").replace("sampling = 0.1", "sampling = 0.2"))
+        self.assertEqual(self.extend("--quiet").code, 0, "neither matters to a measure without noise")
+        with h5py.File(self.folder / "old.h5", "r+") as file:
+            now = file.attrs["program"]
+            file.attrs["program"] = "portrait 0.0.1"
+        self.write("new.toml", text.replace("[0.1, 0.2]", "[0.1, 0.15, 0.2]"))
+        now = now.decode() if isinstance(now, bytes) else now
+        self.assert_fails(self.extend("--force"), 2, refused + f"the program: portrait 0.0.1, now {now}")
+
+    def test_what_is_damaged_is_measured_again_with_its_noise(self):
+        text = grid(EARLIER, measures='"IAE_w", "noise_gain"').replace("horizon = 30", "horizon = 30\nsampling = 0.1")
+        self.write("old.toml", text)
+        self.assertEqual(self.run_program("sweep", "old.toml", "-o", "old.h5", "--quiet").code, 0)
+        whole = self.run_program("verify", "old.h5").out.replace("old.h5", "new.h5")
+        data = bytearray((self.folder / "old.h5").read_bytes())
+        data[4096 + 77] ^= 1
+        (self.folder / "old.h5").write_bytes(data)
+        self.before = bytes(data)
+        self.write("new.toml", text)
+        self.assertIn("496 settings were measured again", self.extend().err)
+        self.assert_whole(whole)
 
     def test_a_coarser_precision_is_refused(self):
         self.earlier(precision="single")

@@ -143,7 +143,7 @@ class Resumed(Run):
         self.assertRegex(result.err, r"another run .*:\n  the method: kernel, \w+, now kernel, base \(PORTRAIT_ISA chooses the instruction set\)\n")
         self.assertEqual(self.run_program("info", "g.h5", "--json").json["tiles_stored"], 4)
 
-    def test_a_version_that_is_another_is_refused(self):
+    def test_a_manifest_that_was_changed_is_refused(self):
         self.shard("1/2")
         path = self.folder / "g.h5.run" / "manifest.json"
         manifest = path.read_text()

@@ -19,6 +19,33 @@ class StoredFile(ProgramTest):
         text = self.run_program("info", self.small_portrait()).out
         self.assertIn("27 settings\n  kappa        3 values, 0.08 .. 0.24\n", text)
 
+    def test_info_of_what_a_grid_file_chooses(self):
+        self.write("g.toml", """title = "chosen"
+plant = "ipdt"
+n = 2
+prefilter = "pi"
+horizon = "auto"
+sampling = 0.2
+precision = "single"
+measures = ["IAE_d", "Ms", "noise_gain"]
+[parameters]
+kappa = { from = 0.2, to = 0.5, count = 4 }
+tau_i = 8
+tau_f = 0.1
+delta = 0.1
+""")
+        self.assertEqual(self.run_program("sweep", "g.toml", "-o", "g.h5", "--quiet", "--threads", "2").code, 0)
+        answer = self.run_program("info", "g.h5", "--json").json
+        found = {key: answer[key] for key in ("title", "plant", "n", "prefilter", "horizon", "sampling", "noise", "precision", "measures", "threads")}
+        self.assertEqual(found, {"title": "chosen", "plant": "ipdt", "n": 2, "prefilter": "pi", "horizon": "auto", "sampling": 0.2, "noise": None,
+                                 "precision": "single", "measures": ["IAE_d", "Ms", "noise_gain"], "threads": 2})
+        self.assertEqual(answer["fixed"], {"delta": 0.1, "tau_i": 8, "tau_f": 0.1, "b": 0})
+        self.assertRegex(self.run_program("info", "g.h5").out,
+                         r"^chosen\nipdt, n = 2, prefilter pi, horizon auto\nnoise held over 0\.2 dead times\n4 settings\n"
+                         r"  kappa        4 values, 0\.2 \.\. 0\.5\n(  \w+ +fixed at [\d.]+\n)+measures  IAE_d, Ms, noise_gain\n"
+                         r"made by   portrait .*, method kernel, \w+, .* on 2 threads\nhistory   .*portrait sweep g\.toml -o g\.h5 --quiet "
+                         r"--threads 2\nstate     complete, format \d+\.\d+\.\d+\n$")
+
     def test_verify_whole_and_damaged(self):
         name = self.small_portrait()
         whole = self.run_program("verify", name)
