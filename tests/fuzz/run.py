@@ -40,7 +40,8 @@ def main():
         if words.exists():
             options.append(f"-dict={words}")
         ran = subprocess.run([program, *options, grown], stderr=subprocess.PIPE, text=True, errors="replace")
-        print("\n".join(ran.stderr.splitlines()[-25:]))
+        told = ran.stderr.splitlines()
+        print("\n".join([line for line in told if " cov: " in line][-1:] + told[-25:]))
         if ran.returncode == 0 and a.keep:
             subprocess.run([program, "-merge=1", least, grown], check=True, stderr=subprocess.DEVNULL)
             corpus.pack(least, kept)
