@@ -1,6 +1,9 @@
 #include "engine/rules/catalogue.h"
 
+#include <cmath>
+#include <map>
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +30,32 @@ TEST(Catalogue, NamesAreUniqueAndEveryRuleSaysWhereItComesFrom) {
     EXPECT_FALSE(rule.source.empty() || rule.line.empty() || rule.plants.empty()) << rule.name;
   }
   EXPECT_GE(names.size(), 30u);
+}
+
+/// Huba2021 (36): one half of the filter's lags goes to the plant's, the other to its dead time, which takes both where there is
+/// no lag. Kc is T_j/(K (j T_c + T_d)), T_c = T_d; of a dead time alone Ki is 1/(2 K T_d).
+TEST(ModelBasedRule, SharesTheFilterBetweenLagsAndDeadTime) {
+  const auto found = [](int j) {
+    const Tuned t = tune(rule_named("huba2021-jrm"), jotd(2, 1, 3, j), {{"Tf", "0.2"}, {"n", "3"}});
+    std::map<std::string, double> by_name;
+    for (const auto& [name, value] : t.findings) by_name[std::string(name)] = value;
+    return by_name;
+  };
+  auto none = found(0), two = found(2);
+  EXPECT_NEAR(none["Td_used"], 1.6, 1e-15);
+  EXPECT_NEAR(none["Ki"], 1 / (2 * 2 * 1.6), 1e-15);
+  EXPECT_NEAR(two["Td_used"], 1.3, 1e-15);
+  EXPECT_NEAR(two["Tj"], 3.15, 1e-15);
+  EXPECT_NEAR(two["Kc"], 3.15 / (2 * 3 * 1.3), 1e-15);
+}
+
+/// Chien1990: T_c = sqrt(10) tau unless it is given, K_c = (2 T_c + tau)/(k (T_c + tau)^2), T_i = 2 T_c + tau.
+TEST(ImcPi, HasAnUsualTimeConstant) {
+  const Tuned usual = tune(rule_named("imc-pi"), ipdt(2, 0.5), {});
+  const double Tc = std::sqrt(10.0) * 0.5;
+  ASSERT_TRUE(usual.pid);
+  EXPECT_NEAR(usual.pid->Kc, (2 * Tc + 0.5) / (2 * (Tc + 0.5) * (Tc + 0.5)), 1e-15);
+  EXPECT_NEAR(usual.pid->Ti, 2 * Tc + 0.5, 1e-15);
 }
 
 /// Given any plant of the families every rule either tunes it or says what it lacks, and never returns half a controller.
@@ -61,6 +90,8 @@ TEST(Catalogue, PreconditionsAreNamed) {
       "huba2022-qrdp: this prefilter needs a filtered controller: give --Tf, or --cancel with one pole or none");
   EXPECT_EQ(error_of("huba2022-mfrp1", dipdt(1, 1), {{"cancel", "2mTo"}, {"Tf", "0.1"}}),
             "huba2022-mfrp1: --cancel 2mTo: the loop has 3 poles -1/To and 1 poles -1/(m To)");
+  EXPECT_EQ(error_of("huba2022-qrdp", dipdt(1, 1), {{"Tf", "0.1"}, {"N", "0.45"}}),
+            "--N must be 0.5 .. 1 (it is 0.45)");
   EXPECT_EQ(error_of("huba2022-qrdp", dipdt(1, 1), {{"m", "2"}}),
             "--m has no place here: huba2022-qrdp takes --Tf, --n, --N, --cancel");
   EXPECT_EQ(error_of("dalen2018-pareto", jotd(1, 0, 1, 1)), "dalen2018-pareto: it needs a dead time above 0");
