@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.h"
+#include "engine/rules/areas.h"
+#include "engine/rules/magnitude_optimum.h"
 #include "engine/rules/tuned_loop.h"
 
 namespace portrait::rules {
@@ -56,6 +58,19 @@ TEST(ImcPi, HasAnUsualTimeConstant) {
   ASSERT_TRUE(usual.pid);
   EXPECT_NEAR(usual.pid->Kc, (2 * Tc + 0.5) / (2 * (Tc + 0.5) * (Tc + 0.5)), 1e-15);
   EXPECT_NEAR(usual.pid->Ti, 2 * Tc + 0.5, 1e-15);
+}
+
+/// The rule gives the magnitude optimum of the plant's own areas, behind the filter.
+TEST(HoPidRule, EveryOrderTakesTheAreasThatItNeeds) {
+  for (int m = 0; m <= 4; ++m) {
+    const std::string order = std::to_string(m), n = std::to_string(m + 1);
+    const Tuned t = tune(rule_named("ho-pid"), jotd(2, 0.5, 1, 6), {{"m", order}, {"n", n}, {"Tf", "0.1"}});
+    const auto gains = magnitude_optimum(filtered(areas_of(jotd(2, 0.5, 1, 6), 20), 0.1, m + 1), m);
+    ASSERT_TRUE(gains);
+    ASSERT_EQ(t.controller.numerator.size(), gains->size());
+    for (std::size_t i = 0; i < gains->size(); ++i)
+      EXPECT_NEAR(t.controller.numerator[i], (*gains)[i], 1e-9 * std::abs((*gains)[i]));
+  }
 }
 
 /// Given any plant of the families every rule either tunes it or says what it lacks, and never returns half a controller.
