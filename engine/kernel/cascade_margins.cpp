@@ -95,7 +95,7 @@ class CascadeSearch {
     const Polynomial numerator = controller_numerator(loop);
     const bool once = crossovers.empty() || (crossovers.size() == 1 && crossovers[0] < kHighestCrossover);
     if (!once || !(numerator[0] > 0)) {
-      results_[i] = margins_one_by_one(loop);
+      take_exact(loop, results_[i].measures);
       return;
     }
     const PhaseMargins turn = phase_margins(open, crossovers);
@@ -137,7 +137,7 @@ class CascadeSearch {
       if (found.known[lane] > 0)
         take_lane(found, lane, results_[i].measures);
       else
-        results_[i] = margins_one_by_one({family_, settings_[i]});
+        take_exact({family_, settings_[i]}, results_[i].measures);
     }
     filled_ = 0;
   }
@@ -159,14 +159,10 @@ void take_lane(const MarginResult& found, std::size_t lane, MarginRow& row) {
   row[Measure::GM] = found.GM[lane], row[Measure::GM_low] = found.GM_low[lane];
 }
 
-LoopMargins margins_one_by_one(const Loop& loop) {
-  LoopMargins m;
-  m.stable = is_stable(open_loop(loop));
-  if (!m.stable) return m;
+void take_exact(const Loop& loop, MarginRow& row) {
   MeasureRow all;
   measure_loop(loop, std::nullopt, all);
-  for (const Measure measure : kMarginMeasures) m.measures[measure] = all[measure];
-  return m;
+  for (const Measure measure : kMarginMeasures) row[measure] = all[measure];
 }
 
 void find_cascade_margins(const Implementation& implementation, const LoopFamily& family,

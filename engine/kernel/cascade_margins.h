@@ -18,7 +18,7 @@ void find_cascade_margins(const Implementation& implementation, const LoopFamily
 /// The lanes' result, PM, DM and stability apart.
 void take_lane(const MarginResult& found, std::size_t lane, MarginRow& row);
 
-/// By engine/loop.
-LoopMargins margins_one_by_one(const Loop& loop);
+/// All of them by engine/loop. REQUIRES: the loop is stable.
+void take_exact(const Loop& loop, MarginRow& row);
 
 }  // namespace portrait::kernel

@@ -5,6 +5,7 @@
 #include "engine/base/check.h"
 #include "engine/kernel/cascade_margins.h"
 #include "engine/kernel/resolution.h"
+#include "engine/loop/stability.h"
 
 namespace portrait::kernel {
 namespace {
@@ -22,6 +23,13 @@ LoopMargins margins_of(const MarginResult& found, std::size_t lane) {
   if (!m.stable) return m;
   take_lane(found, lane, m.measures);
   m.measures[Measure::PM] = found.PM[lane], m.measures[Measure::DM] = found.DM[lane];
+  return m;
+}
+
+LoopMargins one_by_one(const Loop& loop) {
+  LoopMargins m;
+  m.stable = is_stable(open_loop(loop));
+  if (m.stable) take_exact(loop, m.measures);
   return m;
 }
 
@@ -55,7 +63,7 @@ class Search {
     implementation_.find_margins(pack_, found);
     for (std::size_t lane = 0; lane < filled_; ++lane) {
       const std::size_t i = which_[lane];
-      results_[i] = found.known[lane] > 0 ? margins_of(found, lane) : margins_one_by_one({family_, settings_[i]});
+      results_[i] = found.known[lane] > 0 ? margins_of(found, lane) : one_by_one({family_, settings_[i]});
     }
     filled_ = 0;
   }

@@ -1,25 +1,14 @@
 // A portrait has the same bytes whatever threads encode its tiles.
-#include <cstdlib>
-
 #include "engine/sweep/sweep.h"
 #include "portraits/writer.h"
+#include "tests/portraits/dated_scratch.h"
 #include "tests/portraits/sample.h"
-#include "tests/portraits/scratch.h"
 
 namespace portrait {
 namespace {
 
-class EncodeThreads : public ScratchTest {
+class EncodeThreads : public DatedScratchTest {
  protected:
-  void SetUp() override {
-    ScratchTest::SetUp();
-    setenv("SOURCE_DATE_EPOCH", "1700000000", 1);
-  }
-  void TearDown() override {
-    unsetenv("SOURCE_DATE_EPOCH");
-    ScratchTest::TearDown();
-  }
-
   /// Settings are measured for nothing: what is stored is the sample's.
   std::string bytes_with(int threads, const Grid& grid) const {
     const auto path = in("p.h5");

@@ -1,12 +1,10 @@
 // A sweep that takes a part of its settings from an earlier portrait: threads ask for settings and complete tiles at once.
-#include <cstdlib>
-
 #include "engine/sweep/method.h"
 #include "grids/sweep_job.h"
 #include "portraits/earlier_portrait.h"
 #include "portraits/facts.h"
 #include "portraits/writer.h"
-#include "tests/portraits/scratch.h"
+#include "tests/portraits/dated_scratch.h"
 
 namespace portrait {
 namespace {
@@ -21,17 +19,8 @@ Grid grid_up_to(double delta, std::uint64_t deltas) {
   return grid;
 }
 
-class ExtendThreads : public ScratchTest {
+class ExtendThreads : public DatedScratchTest {
  protected:
-  void SetUp() override {
-    ScratchTest::SetUp();
-    setenv("SOURCE_DATE_EPOCH", "1700000000", 1);
-  }
-  void TearDown() override {
-    unsetenv("SOURCE_DATE_EPOCH");
-    ScratchTest::TearDown();
-  }
-
   const std::string method_ = method_text(Method::kernel);
 
   std::string bytes_of_sweep(const std::string& name, const Grid& grid, int threads,
