@@ -7,7 +7,7 @@
 /// knee      the point with the least sum of scaled values: with two expressions the one farthest below the chord from
 ///           end to end
 /// subset    the ends, then always the point farthest from all chosen ones: evenly spread, however dense the front is
-/// accuracy  equal to comparing all pairs: tests/portraits/query/pareto_test.cpp
+/// accuracy  equal to comparing all pairs: tests/portraits/query/kinds_property_test.cpp
 #pragma once
 
 #include <array>

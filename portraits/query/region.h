@@ -1,7 +1,7 @@
 /// The admissible settings as a region of the grid: how large it is, where it lies, what shape it has; and how a given
 /// setting stands to it.
 ///
-/// accuracy  equal to plain loops over all settings: tests/portraits/query/region_test.cpp
+/// accuracy  equal to plain loops over all settings: tests/portraits/query/kinds_property_test.cpp
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 /// The best objective along a bound: of the settings with expression <= bound, for a row of bounds. With Ms = 1.3 .. 2.0
 /// the Pareto-optimal curve of Dalen2018 (41) and its regret.
 ///
-/// accuracy  equal to one query per bound: tests/portraits/query/trade_off_test.cpp
+/// accuracy  equal to one query per bound: tests/portraits/query/kinds_property_test.cpp
 #pragma once
 
 #include <optional>

@@ -104,5 +104,42 @@ TEST(Outlook, decides_what_the_sides_leave_no_doubt_about) {
   EXPECT_EQ(outlook(Relation::at_most, Interval::none(), wide), Outlook::never);
 }
 
+/// Over whole numbers an order holds throughout, or nowhere, just when it does for every pair of ends.
+TEST(Outlook, of_an_order_is_what_all_pairs_of_ends_say) {
+  for (const Relation relation : {Relation::at_most, Relation::below, Relation::at_least, Relation::above})
+    for (int ends = 0; ends < 4 * 4 * 4 * 4; ++ends) {
+      const double a = ends % 4, b = ends / 4 % 4, c = ends / 16 % 4, d = ends / 64;
+      if (a > b || c > d) continue;
+      int held = 0;
+      for (const double left : {a, b})
+        for (const double right : {c, d}) held += holds(relation, left, right) ? 1 : 0;
+      const Outlook expected = held == 4 ? Outlook::always : held == 0 ? Outlook::never : Outlook::maybe;
+      EXPECT_EQ(outlook(relation, {a, b, false}, {c, d, false}), expected)
+          << a << ".." << b << " " << to_string(relation) << " " << c << ".." << d;
+    }
+}
+
+TEST(Outlook, of_a_side_that_is_only_nan_is_never) {
+  const Interval reaching{-kInf, kInf, false};
+  for (const Relation relation :
+       {Relation::at_most, Relation::below, Relation::at_least, Relation::above, Relation::equal}) {
+    EXPECT_EQ(outlook(relation, Interval::none(), reaching), Outlook::never);
+    EXPECT_EQ(outlook(relation, reaching, Interval::none()), Outlook::never);
+  }
+}
+
+TEST(Outlook, of_equality_allows_for_numbers_that_count_as_the_same) {
+  const auto of = [](double a, double b, double c, double d) {
+    return outlook(Relation::equal, {a, b, false}, {c, d, false});
+  };
+  EXPECT_EQ(of(0, 0, 0, 0), Outlook::always);
+  EXPECT_EQ(of(1, 1, 1, 2), Outlook::maybe);
+  EXPECT_EQ(of(1, 2, 1, 1), Outlook::maybe);
+  EXPECT_EQ(of(1e6, 1e6, 1e6 + 5e-4, 1e6 + 5e-4), Outlook::always);
+  EXPECT_EQ(of(0, 1e6, 1e6 + 5e-4, 2e6), Outlook::maybe);
+  EXPECT_EQ(of(1e6 + 5e-4, 2e6, 0, 1e6), Outlook::maybe);
+  EXPECT_EQ(of(0, 1e6, 1e6 + 1, 2e6), Outlook::never);
+}
+
 }  // namespace
 }  // namespace portrait

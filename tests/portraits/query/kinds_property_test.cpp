@@ -108,9 +108,72 @@ RC_GTEST_PROP(Region, is_what_a_plain_loop_counts, ()) {
     std::vector<std::uint64_t> counts(grid.axes[k].size());
     for (const std::uint64_t number : admissible) ++counts[coordinates(grid, number)[k]];
     RC_ASSERT(found.axes[k].counts == counts);
-    if (found.axes[k].first) RC_ASSERT(counts[*found.axes[k].first] > 0u);
+    std::optional<std::size_t> first, last;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] > 0 && !first) first = i;
+      if (counts[i] > 0) last = i;
+    }
+    RC_ASSERT(found.axes[k].first == first);
+    RC_ASSERT(found.axes[k].last == last);
     RC_ASSERT(found.axes[k].at_lower_edge == (counts.front() > 0));
+    const bool ends_in_inf = std::isinf(grid.axes[k][counts.size() - 1]);
+    RC_ASSERT(found.axes[k].at_upper_edge == (counts.back() > 0 && !ends_in_inf));
   }
+}
+
+/// Pearson's, of the indices along two axes over these settings; NaN where one of them is the same everywhere.
+double plain_correlation(const Grid& grid, const std::vector<std::uint64_t>& settings, std::size_t j,
+                         std::size_t k) {
+  const auto n = static_cast<double>(settings.size());
+  double mean_j = 0, mean_k = 0, jj = 0, jk = 0, kk = 0;
+  for (const std::uint64_t number : settings) {
+    mean_j += static_cast<double>(coordinates(grid, number)[j]) / n;
+    mean_k += static_cast<double>(coordinates(grid, number)[k]) / n;
+  }
+  for (const std::uint64_t number : settings) {
+    const double a = static_cast<double>(coordinates(grid, number)[j]) - mean_j;
+    const double b = static_cast<double>(coordinates(grid, number)[k]) - mean_k;
+    jj += a * a, jk += a * b, kk += b * b;
+  }
+  return jj < 1e-6 || kk < 1e-6 ? kNaN : jk / std::sqrt(jj * kk);
+}
+
+RC_GTEST_PROP(Region, correlations_are_those_of_the_indices, ()) {
+  const Drawn drawn;
+  const Grid& grid = drawn.source.grid();
+  const std::size_t axes = grid.axes.size();
+  const std::vector<std::uint64_t> admissible = drawn.admissible();
+  RC_PRE(!admissible.empty() && admissible.size() < 4000);
+  const Region found = region(drawn.source, drawn.conditions());
+  RC_ASSERT(found.correlation.size() == axes * axes);
+  for (std::size_t j = 0; j < axes; ++j)
+    for (std::size_t k = 0; k < axes; ++k) {
+      const double expected = plain_correlation(grid, admissible, j, k), value = found.correlation[j * axes + k];
+      RC_ASSERT(std::isnan(expected) == std::isnan(value));
+      if (!std::isnan(expected)) RC_ASSERT(std::abs(value - expected) < 1e-6);
+    }
+}
+
+TEST(Region, an_axis_has_places_from_0_to_1_and_beyond) {
+  const Axis even = Axis::linear(Parameter::kappa, 1, 3, 3), uneven = Axis::list(Parameter::tau_i, {2, 4, 12});
+  EXPECT_EQ(place_on(even, 1), 0);
+  EXPECT_EQ(place_on(even, 2), 0.5);
+  EXPECT_EQ(place_on(even, 3), 1);
+  EXPECT_EQ(place_on(even, 0), -0.5);
+  EXPECT_EQ(place_on(even, 5), 2);
+  EXPECT_EQ(place_on(even, kInf), kInf);
+  EXPECT_EQ(place_on(uneven, 3), 0.25);
+  EXPECT_EQ(place_on(uneven, 4), 0.5);
+  EXPECT_EQ(place_on(uneven, 6), 0.625);
+  EXPECT_EQ(place_on(uneven, 20), 1.5);
+  const Axis to_inf = Axis::list(Parameter::tau_i, {2, 4, kInf});
+  EXPECT_EQ(place_on(to_inf, 2), 0);
+  EXPECT_EQ(place_on(to_inf, 3), 0.25);
+  EXPECT_EQ(place_on(to_inf, 4), 0.5);
+  EXPECT_EQ(place_on(to_inf, 6), 1);
+  EXPECT_EQ(place_on(to_inf, kInf), 1);
+  EXPECT_EQ(place_on(Axis::list(Parameter::tau_i, {4, kInf}), 9), 0);
+  EXPECT_EQ(place_on(Axis::list(Parameter::tau_i, {4}), 9), 0);
 }
 
 /// From setting to setting.
@@ -189,6 +252,22 @@ RC_GTEST_PROP(Region, the_nearest_setting_is_nearest, ()) {
   if (!found) return;
   RC_ASSERT(found->distance == least);
   RC_ASSERT(found->found.number == *expected);
+}
+
+TEST(Region, a_nearest_setting_is_looked_for_only_in_tiles_that_are_near_enough) {
+  Grid grid;
+  grid.family = {Plant::ipdt, 0, Prefilter::none};
+  grid.measures = {Measure::IAE_w};
+  grid.axes = {Axis::linear(Parameter::kappa, 0.1, 0.2, 2),
+               Axis::linear(Parameter::tau_i, 2, 20, 4 * kTileSettings)};
+  grid.fixed = {{Parameter::delta, 0.5}};
+  MemorySource source(grid);
+  for (std::uint64_t i = 0; i < setting_count(grid); i += kTileSettings) source.at(Measure::IAE_w, i) = 9;
+  Conditions conditions;
+  conditions.where.push_back(parse_constraint({"", "IAE_w <= 2"}));
+  const auto found = nearest_admissible(source, conditions, setting_at(grid, 5));
+  EXPECT_EQ(found->found.number, 5u);
+  EXPECT_EQ(source.values_read(), kTileSettings + 1);
 }
 
 RC_GTEST_PROP(TradeOff, is_one_query_a_bound, ()) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "portraits/query/select_pass.h"
 #include "tests/portraits/query/error_text.h"
 #include "tests/portraits/query/memory_source.h"
 #include "tests/portraits/query/small_portraits.h"
@@ -228,6 +229,121 @@ TEST(Query, the_price_of_a_constraint_is_the_least_loosening_that_helps) {
   EXPECT_EQ(answer.active[0].loosened->left, 7);
   EXPECT_EQ(answer.active[0].loosened->right, 2);
   EXPECT_EQ(answer.active[0].loosened->relative, 2.5);
+}
+
+/// One measure's value for all of a tile.
+void fill(MemorySource& source, Measure measure, std::uint64_t tile, double value) {
+  for (std::uint64_t i = 0; i < kTileSettings; ++i) source.at(measure, tile * kTileSettings + i) = value;
+}
+
+/// Tiles whose limit, 2, is missed by so much at such an objective; nothing is admissible but in a last tile, at 9.
+struct Missing {
+  double objective, TV2_uw;
+};
+MemorySource missing(const std::vector<Missing>& tiles) {
+  MemorySource source(line((tiles.size() + 1) * kTileSettings));
+  for (std::uint64_t tile = 0; tile < tiles.size(); ++tile) {
+    fill(source, Measure::IAE_w, tile, tiles[tile].objective);
+    fill(source, Measure::TV2_uw, tile, tiles[tile].TV2_uw);
+  }
+  fill(source, Measure::IAE_w, tiles.size(), 9);
+  return source;
+}
+
+TEST(Query, a_tile_that_cannot_win_counts_its_missing_objectives) {
+  MemorySource source(line(2 * kTileSettings));
+  fill(source, Measure::IAE_w, 1, 2);
+  for (const std::uint64_t tile : {0, 1}) source.at(Measure::TV2_uw, (tile + 1) * kTileSettings - 1) = 5;
+  source.at(Measure::IAE_w, kTileSettings) = kNaN;
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 2"}));
+  ASSERT_EQ(numbers(answer), Numbers{0});
+  EXPECT_EQ(answer.admissible, 2 * kTileSettings - 3);
+  EXPECT_EQ(answer.left_out.objective_missing, 1u);
+}
+
+TEST(Query, what_threads_found_adds_up) {
+  Selection all(2), other(2);
+  all.admissible = 5, other.admissible = 3;
+  all.best.offer({7, 2.0, Status::settled});
+  other.best.offer({9, 1.0, Status::settled});
+  other.best.offer({8, 3.0, Status::settled});
+  other.waiting.emplace_back(0.5, 4);
+  all.merge(other);
+  EXPECT_EQ(all.admissible, 8u);
+  EXPECT_EQ(all.waiting.size(), 1u);
+  ASSERT_EQ(all.best.sorted().size(), 2u);
+  EXPECT_EQ(all.best.sorted()[0].number, 9u);
+  EXPECT_EQ(all.best.sorted()[1].number, 7u);
+}
+
+TEST(Query, a_price_reads_no_tile_that_fails_by_more_than_another) {
+  MemorySource source = missing({{1, 2.5}, {5, 8}});
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 2"}));
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].loosened->relative, 0.25);
+  // The objective where all is admissible; the objective and TV2_uw of the first tile.
+  EXPECT_EQ(source.values_read(), 3 * kTileSettings + 3 * kOfTheAnswer);
+}
+
+TEST(Query, a_price_finds_what_fails_by_less_in_a_later_tile) {
+  const Answer answer = ask(missing({{1, 4}, {5, 3.25}}), question("IAE_w", {"TV2_uw <= 2"}));
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].optimum.objective, 1);
+  ASSERT_TRUE(answer.active[0].loosened);
+  EXPECT_EQ(answer.active[0].loosened->found.number, kTileSettings);
+  EXPECT_EQ(answer.active[0].loosened->relative, 0.625);
+}
+
+/// The second tile fails by as little as the first, and is better there; the first has the best of all elsewhere.
+TEST(Query, a_price_of_equal_violations_is_that_of_the_better_setting) {
+  MemorySource source = missing({{5, 3}, {3, 3}});
+  source.at(Measure::IAE_w, 7) = 1;
+  source.at(Measure::TV2_uw, 7) = 4;
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 2"}));
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].optimum.number, 7u);
+  EXPECT_EQ(answer.active[0].loosened->found.number, kTileSettings);
+}
+
+/// The same with a strict relation that both tiles miss by nothing at all.
+TEST(Query, a_price_of_nothing_is_that_of_the_better_setting) {
+  MemorySource source = missing({{5, 2}, {3, 2}});
+  source.at(Measure::IAE_w, 7) = 1;
+  source.at(Measure::TV2_uw, 7) = 4;
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw < 2"}));
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].loosened->found.number, kTileSettings);
+  EXPECT_EQ(answer.active[0].loosened->relative, 0);
+}
+
+TEST(Query, a_price_reads_no_tile_for_a_constraint_when_another_fails_throughout) {
+  MemorySource source = missing({{1, 2.5}, {5, 8}});
+  source.at(Measure::IAE_d, kTileSettings) = 3;  // would be news about IAE_d, were it not for TV2_uw
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 2", "IAE_d <= 2"}));
+  ASSERT_EQ(answer.active.size(), 1u);
+  // The objective where all is admissible; objective, TV2_uw and IAE_d of the first tile.
+  EXPECT_EQ(source.values_read(), 4 * kTileSettings + 3 * kOfTheAnswer);
+}
+
+TEST(Query, a_price_sees_infinite_sides_that_miss_by_nothing) {
+  MemorySource source = missing({{1, 3}, {5, kInf}});
+  source.at(Measure::IAE_d, kTileSettings) = kInf;  // inf < inf fails by 0, the others of the tile by inf
+  fill(source, Measure::IAE_d, 0, 2);
+  fill(source, Measure::IAE_d, 2, 2);
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw < IAE_d"}));
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].optimum.number, 0u);
+  EXPECT_EQ(answer.active[0].loosened->found.number, kTileSettings);
+  EXPECT_EQ(answer.active[0].loosened->relative, 0);
+}
+
+TEST(Query, a_price_may_be_the_one_stable_setting_of_a_tile) {
+  MemorySource source = missing({{5, 3}, {1, 4}});
+  for (std::uint64_t i = 0; i < kTileSettings; ++i)
+    if (i != 5) source.status(kTileSettings + i) = Status::unstable;
+  const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 2"}));
+  ASSERT_EQ(answer.active.size(), 1u);
+  EXPECT_EQ(answer.active[0].optimum.number, kTileSettings + 5);
 }
 
 TEST(Query, refuses_a_question_that_does_not_fit) {
