@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "engine/base/error.h"
+#include "grids/tiling.h"
 #include "portraits/query/pareto.h"
 #include "portraits/query/region.h"
 #include "portraits/query/trade_off.h"
@@ -96,6 +97,102 @@ TEST(Pareto, knee_and_subset_of_a_known_front) {
   EXPECT_EQ(three.back(), 100u);
   EXPECT_NEAR(static_cast<double>(three[1]), 41, 8);
   EXPECT_EQ(even_subset(front, 2, 1000).size(), 101u);
+}
+
+TEST(Pareto, knee_is_the_least_sum_of_scaled_values) {
+  // Scaled: 0 1 1, 0.5 0 0.25, 1 0.5 0: sums 2, 0.75, 1.5.
+  EXPECT_EQ(knee_of({{1, {10, 6, 9}}, {2, {20, 2, 6}}, {3, {30, 4, 5}}}, 3), 1u);
+  // The third is 7 everywhere, so that it counts for nothing.
+  EXPECT_EQ(knee_of({{1, {1, 3, 7}}, {2, {2, 1.2, 7}}, {3, {3, 1, 7}}}, 3), 1u);
+  // inf counts as the worst, the others as if it were not there: 0 1, 0.1 1, 0.5 0.1, 1 0.
+  EXPECT_EQ(knee_of({{1, {0, kInf, 0}}, {2, {0.2, 3, 0}}, {3, {1, 1.2, 0}}, {4, {2, 1, 0}}}, 2), 2u);
+  // -inf as the best: 0 1, 0.1 0, 1 0 in the first and last.
+  EXPECT_EQ(knee_of({{1, {0, 1, 4}}, {2, {0.1, 0, 5}}, {3, {1, -kInf, 6}}}, 2), 1u);
+  EXPECT_EQ(knee_of({{1, {1, 3, 0}}, {2, {3, 1, 0}}}, 2), 0u);  // equal sums: the first
+}
+
+TEST(Pareto, a_subset_goes_on_from_the_ends_to_what_is_farthest) {
+  const std::vector<FrontPoint> front = {
+      {1, {0, 10, 0}}, {2, {1, 9, 0}}, {3, {6, 4, 0}}, {4, {9, 1, 0}}, {5, {10, 0, 0}}};
+  EXPECT_EQ(even_subset(front, 2, 2), (std::vector<std::size_t>{0, 4}));
+  EXPECT_EQ(even_subset(front, 2, 3), (std::vector<std::size_t>{0, 2, 4}));
+  EXPECT_EQ(even_subset(front, 2, 5).size(), 5u);
+  EXPECT_EQ(even_subset({{1, {3, 3, 0}}}, 2, 4), std::vector<std::size_t>{0});
+  // Two infinite values cannot be told apart.
+  EXPECT_EQ(even_subset({{1, {kInf, 1, 2}}, {2, {kInf, 1, 2}}, {3, {1, 4, 2}}}, 2, 3).size(), 2u);
+}
+
+TEST(Pareto, a_point_dominates_what_is_nowhere_better_and_somewhere_worse) {
+  const FrontPoint a{1, {1, 2, 3}};
+  EXPECT_FALSE(dominates(a, a));
+  EXPECT_TRUE(dominates(a, {2, {1, 2, 4}}));
+  EXPECT_TRUE(dominates(a, {2, {2, 2, 3}}));
+  EXPECT_FALSE(dominates(a, {2, {0, 9, 9}}));
+  EXPECT_FALSE(dominates(a, {2, {9, 9, 2}}));
+}
+
+/// kappa 0.1, 0.2, ... in tiles; IAE_w and TV2_uw by tile, IAE_d 1.
+MemorySource in_tiles(const std::vector<std::pair<double, double>>& values) {
+  Grid grid;
+  grid.family = {Plant::ipdt, 0, Prefilter::none};
+  grid.measures = {Measure::IAE_w, Measure::IAE_d, Measure::TV2_uw};
+  const std::uint64_t settings = values.size() * kTileSettings;
+  grid.axes = {Axis::linear(Parameter::kappa, 0.1, 0.1 * static_cast<double>(settings), settings)};
+  grid.fixed = {{Parameter::delta, 0.5}, {Parameter::tau_i, 8}};
+  MemorySource source(grid);
+  for (std::uint64_t i = 0; i < settings; ++i) {
+    source.at(Measure::IAE_w, i) = values[i / kTileSettings].first;
+    source.at(Measure::TV2_uw, i) = values[i / kTileSettings].second;
+  }
+  return source;
+}
+
+ParetoQuestion in_both(const std::vector<std::string>& where = {}) {
+  ParetoQuestion question{{expression("IAE_w"), expression("TV2_uw")}, {}};
+  for (const std::string& text : where) question.conditions.where.push_back(parse_constraint({"", text}));
+  return question;
+}
+
+TEST(Pareto, counts_a_beaten_tile_without_reading_it) {
+  MemorySource source = in_tiles({{2, 2}, {3, 2}, {1, 3}});
+  source.status(kTileSettings + 1) = Status::not_settled;
+  const ParetoAnswer answer = pareto(source, in_both());
+  ASSERT_EQ(answer.front.size(), 2u);
+  EXPECT_EQ(answer.front[0].number, 2 * kTileSettings);
+  EXPECT_EQ(answer.front[1].number, 0u);
+  EXPECT_EQ(answer.admissible, 3 * kTileSettings - 1);
+  EXPECT_EQ(answer.total, 3 * kTileSettings);
+  EXPECT_EQ(source.values_read(), 2 * 2 * kTileSettings);
+}
+
+TEST(Pareto, reads_of_a_beaten_tile_only_what_decides_who_is_admissible) {
+  MemorySource source = in_tiles({{2, 2}, {3, 3}});
+  source.at(Measure::IAE_d, kTileSettings + 7) = 9;
+  const ParetoAnswer answer = pareto(source, in_both({"IAE_d <= 2"}));
+  EXPECT_EQ(answer.front.size(), 1u);
+  EXPECT_EQ(answer.admissible, 2 * kTileSettings - 1);
+  EXPECT_EQ(source.values_read(), 3 * kTileSettings);
+}
+
+TEST(Pareto, a_beaten_tile_with_a_missing_value_is_counted_setting_by_setting) {
+  MemorySource source = in_tiles({{2, 2}, {3, 3}});
+  source.at(Measure::TV2_uw, kTileSettings + 7) = kNaN;
+  const ParetoAnswer answer = pareto(source, in_both());
+  EXPECT_EQ(answer.admissible, 2 * kTileSettings - 1);
+  EXPECT_EQ(answer.left_out.objective_missing, 1u);
+}
+
+TEST(Pareto, refuses_a_question_that_is_not_of_a_front) {
+  const MemorySource source = in_tiles({{1, 1}});
+  ParetoQuestion one = in_both(), four = in_both(), small = in_both();
+  one.minimize.pop_back();
+  four.minimize.push_back(expression("IAE_d"));
+  EXPECT_EQ(pareto(source, four).front.size(), 1u);
+  four.minimize.push_back(expression("kappa"));
+  small.subset = 1;
+  for (const ParetoQuestion& question : {one, four, small}) EXPECT_THROW(pareto(source, question), InputError);
+  small.subset = 2;
+  EXPECT_EQ(pareto(source, small).subset.size(), 1u);
 }
 
 RC_GTEST_PROP(Region, is_what_a_plain_loop_counts, ()) {
