@@ -12,6 +12,7 @@ tree that differs in that file is refused.
 import argparse
 import random
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -77,6 +78,7 @@ def main():
     path, build = ROOT / a.source, a.build.resolve()
     if subprocess.run(["git", "-C", ROOT, "diff", "--quiet", "--", a.source], check=False).returncode != 0:
         parser.error(f"{a.source} has changes that are not committed")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     source = path.read_text()
     all_of_them = mutants(source)
     chosen = sorted(random.Random(a.seed).sample(all_of_them, a.most)) if 0 < a.most < len(all_of_them) else all_of_them

@@ -71,6 +71,14 @@ TEST(Constraint, equal_means_within_one_in_a_milliard) {
   EXPECT_FALSE(holds(Relation::equal, 0, 1e-12));
 }
 
+TEST(GridValues, numbers_are_the_same_up_to_a_milliardth_of_the_greater) {
+  EXPECT_TRUE(same_number(1e9, 1e9 - 1));
+  EXPECT_TRUE(same_number(1e9 - 1, 1e9));
+  EXPECT_TRUE(same_number(-1e9, 1 - 1e9));
+  EXPECT_FALSE(same_number(1e9, 1e9 - 2));
+  EXPECT_FALSE(same_number(1, -1));
+}
+
 TEST(Constraint, never_holds_with_nan) {
   for (const Relation relation :
        {Relation::at_most, Relation::below, Relation::at_least, Relation::above, Relation::equal}) {

@@ -109,6 +109,8 @@ TEST(Pareto, knee_is_the_least_sum_of_scaled_values) {
   // -inf as the best: 0 1, 0.1 0, 1 0 in the first and last.
   EXPECT_EQ(knee_of({{1, {0, 1, 4}}, {2, {0.1, 0, 5}}, {3, {1, -kInf, 6}}}, 2), 1u);
   EXPECT_EQ(knee_of({{1, {1, 3, 0}}, {2, {3, 1, 0}}}, 2), 0u);  // equal sums: the first
+  // Only differences count: 0 1, 0.6 0.3, 1 0.
+  EXPECT_EQ(knee_of({{1, {100, 1, 0}}, {2, {100.6, 0.3, 0}}, {3, {101, 0, 0}}}, 2), 1u);
 }
 
 TEST(Pareto, a_subset_goes_on_from_the_ends_to_what_is_farthest) {
@@ -118,6 +120,11 @@ TEST(Pareto, a_subset_goes_on_from_the_ends_to_what_is_farthest) {
   EXPECT_EQ(even_subset(front, 2, 3), (std::vector<std::size_t>{0, 2, 4}));
   EXPECT_EQ(even_subset(front, 2, 5).size(), 5u);
   EXPECT_EQ(even_subset({{1, {3, 3, 0}}}, 2, 4), std::vector<std::size_t>{0});
+  // Squares of distances to the nearer end, in each value and their sum: 0.0025 and 0.36, 0.25 and 0.01; then mirrored.
+  EXPECT_EQ(even_subset({{1, {0, 10, 0}}, {2, {0.5, 4, 0}}, {3, {5, 1, 0}}, {4, {10, 0, 0}}}, 2, 3)[1], 1u);
+  EXPECT_EQ(even_subset({{1, {0, 10, 0}}, {2, {1, 5, 0}}, {3, {4, 0.5, 0}}, {4, {10, 0, 0}}}, 2, 3)[1], 2u);
+  // Only the third tells the middle ones apart.
+  EXPECT_EQ(even_subset({{1, {0, 2, 5}}, {2, {1, 1, 5}}, {3, {1, 1.2, 0}}, {4, {2, 0, 5}}}, 3, 3)[1], 2u);
   // Two infinite values cannot be told apart.
   EXPECT_EQ(even_subset({{1, {kInf, 1, 2}}, {2, {kInf, 1, 2}}, {3, {1, 4, 2}}}, 2, 3).size(), 2u);
 }
@@ -379,6 +386,17 @@ RC_GTEST_PROP(TradeOff, is_one_query_a_bound, ()) {
     RC_ASSERT(points[i].best.has_value() == !answer.top.empty());
     if (points[i].best) RC_ASSERT(points[i].best->number == answer.top[0].number);
   }
+}
+
+TEST(TradeOff, reads_only_tiles_that_may_hold_the_best_within_a_bound) {
+  MemorySource source = in_tiles({{1, 1}, {2, 1}, {0.5, 9}, {0.7, 2}, {0.8, 2}});
+  Question question{expression("IAE_w"), {}};
+  const auto points = trade_off(source, question, expression("TV2_uw"), {0.5, 1, 3});
+  EXPECT_FALSE(points[0].best);
+  EXPECT_EQ(points[1].best->number, 0u);
+  EXPECT_EQ(points[2].best->number, 3 * kTileSettings);
+  EXPECT_EQ(source.values_read(),
+            2 * 2 * kTileSettings + 2 * 3);  // the first and fourth tile, and what the answer takes
 }
 
 /// The constraints in another order, one of them twice.

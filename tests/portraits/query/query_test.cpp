@@ -219,6 +219,18 @@ TEST(Query, skips_measures_where_nothing_is_stable) {
   EXPECT_EQ(source.values_read(), kTileSettings + kOfTheAnswer);
 }
 
+TEST(Query, unstable_settings_of_a_tile_say_nothing_of_its_others) {
+  MemorySource source(line(2 * kTileSettings));
+  for (std::uint64_t i = kTileSettings; i < 2 * kTileSettings; ++i) {
+    const bool unstable = i % 3 == 0;
+    source.status(i) = unstable ? Status::unstable : Status::settled;
+    source.at(Measure::IAE_w, i) = unstable ? kNaN : 5;
+  }
+  const Answer answer = ask(source, question("IAE_w"));
+  EXPECT_EQ(answer.admissible + answer.left_out.unstable, 2 * kTileSettings);
+  EXPECT_EQ(source.values_read(), kTileSettings + kOfTheAnswer);
+}
+
 TEST(Query, the_price_of_a_constraint_is_the_least_loosening_that_helps) {
   const MemorySource source = five({1, 2, 3, 4, 5}, {9, 8, 7, 2, 1});
   const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 2"}));
