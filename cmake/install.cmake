@@ -22,6 +22,9 @@ install(FILES ${texts}/portrait.1 ${man_pages} DESTINATION ${CMAKE_INSTALL_MANDI
 install(FILES ${texts}/portrait.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME portrait COMPONENT program)
 install(FILES ${texts}/_portrait DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
 install(DIRECTORY grids/catalog DESTINATION ${CMAKE_INSTALL_DATADIR}/portrait COMPONENT program)
+# Debian policy: a package says under which terms it may be copied.
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/portrait RENAME copyright COMPONENT program)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/portrait-dev RENAME copyright COMPONENT development)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/portrait COMPONENT program)
 install(FILES grids/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/portrait/grids COMPONENT program)
 install(FILES portraits/FORMAT.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/portrait/portraits COMPONENT program)
@@ -48,6 +51,7 @@ install(FILES ${PROJECT_BINARY_DIR}/PortraitConfig.cmake ${PROJECT_BINARY_DIR}/P
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME portrait)
 set(CPACK_PACKAGE_CONTACT "the maintainers of Portrait <portrait@localhost>")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)

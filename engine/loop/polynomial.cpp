@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
+
+#include "engine/base/matrices.h"
 
 namespace portrait {
 namespace {
@@ -130,7 +132,7 @@ std::vector<std::complex<double>> complex_roots(const Polynomial& p_given) {
     companion(i, degree - 1) =
         -p[static_cast<std::size_t>(i)] / p.back() * std::pow(size, static_cast<double>(i - degree));
   }
-  const Eigen::VectorXcd values = companion.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(companion);
   std::vector<std::complex<double>> roots;
   for (Eigen::Index i = 0; i < degree; ++i) roots.push_back(size * values(i));
   return roots;

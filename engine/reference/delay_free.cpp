@@ -5,10 +5,10 @@
 #include <map>
 #include <stdexcept>
 
-#include <Eigen/Dense>
-#include <unsupported/Eigen/MatrixFunctions>
+#include <Eigen/LU>
 
 #include "engine/base/check.h"
+#include "engine/base/matrices.h"
 #include "engine/reference/collocation.h"
 
 namespace portrait::reference {
@@ -79,7 +79,7 @@ Map panel_map(const ClosedLoop& loop, const Nodes& nodes, double length) {
   generator.topRightCorner(n, m) = loop.E;
   Map map;
   for (Eigen::Index i = 1; i < nodes.at.size(); ++i) {
-    const Eigen::MatrixXd at = (generator * (length * nodes.at(i))).exp();
+    const Eigen::MatrixXd at = exponential(generator * (length * nodes.at(i)));
     map.of_x.emplace_back(at.topLeftCorner(n, n) - Eigen::MatrixXd::Identity(n, n));
     map.of_v.emplace_back(at.topRightCorner(n, m));
   }
@@ -93,7 +93,7 @@ class DelayFreeRun {
     const OpenChain chain = open_chain(loop);
     loop_ = closed(chain, steps);
     balance(loop_);
-    const Eigen::VectorXcd roots = loop_.A.eigenvalues();
+    const Eigen::VectorXcd roots = eigenvalues(loop_.A);
     if (roots.size() > 0) slowest_ = -roots.real().maxCoeff(), fastest_ = 1 / roots.cwiseAbs().maxCoeff();
     x_ = Eigen::MatrixXd::Zero(loop_.A.rows(), columns());
     for (const Step step : steps_) response_.steps[step].at_rest = steady_state(loop, step);

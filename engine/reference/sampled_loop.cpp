@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <Eigen/Dense>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "engine/base/check.h"
+#include "engine/base/matrices.h"
 
 namespace portrait::reference {
 namespace {
@@ -26,7 +26,7 @@ HeldMap held_over(const System& system, double time) {
   Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(n + m, n + m);
   generator.topLeftCorner(n, n) = system.A;
   generator.topRightCorner(n, m) = system.B;
-  const Eigen::MatrixXd at = (generator * time).exp();
+  const Eigen::MatrixXd at = exponential(generator * time);
   return {at.topLeftCorner(n, n), at.topRightCorner(n, m)};
 }
 

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "engine/base/matrices.h"
 
 namespace portrait::rules {
 namespace {
@@ -26,8 +27,8 @@ class StepResponse {
     start_(order - 1) = 1;
   }
 
-  Eigen::VectorXd state(double t) const { return (A_ * t).exp() * start_; }
-  Eigen::MatrixXd step(double t) const { return (A_ * t).exp(); }
+  Eigen::VectorXd state(double t) const { return exponential(A_ * t) * start_; }
+  Eigen::MatrixXd step(double t) const { return exponential(A_ * t); }
   const Eigen::VectorXd& start() const { return start_; }
   double slope(const Eigen::VectorXd& x) const { return slope_ * x; }
   double curvature(const Eigen::VectorXd& x) const { return slope_ * A_ * x; }

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "engine/base/check.h"
+#include "engine/base/matrices.h"
 
 namespace portrait::rules {
 namespace {
@@ -24,8 +24,7 @@ Eigen::RowVector4d divided_differences(const Nodes& x) {
   Eigen::Matrix4d J = Eigen::Matrix4d::Zero();
   for (int i = 0; i < 4; ++i) J(i, i) = x[static_cast<std::size_t>(i)];
   for (int i = 0; i < 3; ++i) J(i, i + 1) = 1;
-  const Eigen::Matrix4d exponential = J.exp();
-  return (J * J * J * exponential).row(0);
+  return (J * J * J * exponential(J)).row(0);
 }
 
 double residual(PoleSet set, double m, double p_o) { return divided_differences(nodes(set, m, p_o))(3); }

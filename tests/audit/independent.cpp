@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -19,10 +20,11 @@ using Complex = std::complex<Real>;
 // ---------------------------------------------------------------- the loop as it is written
 
 /// K_-1, K_0, K_1, ...
+template <typename Real>
 std::vector<Real> gains(const Loop& loop) {
   const Setting& s = loop.setting;
   if (has_gains(loop.family)) return {s.gains.begin(), s.gains.begin() + loop.family.m + 2};
-  return {std::isfinite(s.tau_i) ? Real{s.kappa} / s.tau_i : 0, s.kappa, s.delta};
+  return {std::isfinite(s.tau_i) ? Real{s.kappa} / Real{s.tau_i} : 0, s.kappa, s.delta};
 }
 
 int lags(const Loop& loop) {
@@ -31,16 +33,49 @@ int lags(const Loop& loop) {
 
 Real lag(const Loop& loop) { return loop.family.plant == Plant::fotd ? loop.setting.tau_1 : loop.setting.tau_j; }
 
-Complex open_loop_at(const Loop& loop, Real omega) {
-  const Complex s(0, omega);
-  Complex C = 0, power = Real{1} / s;
-  for (const Real K : gains(loop)) C += K * power, power *= s;
-  Complex L = C * std::exp(-s);
-  for (int i = 0; i < integrators(loop.family.plant); ++i) L /= s;
-  for (int i = 0; i < lags(loop); ++i) L /= Real{1} + lag(loop) * s;
-  for (int i = 0; i < loop.family.n; ++i) L /= Real{1} + Real{loop.setting.tau_f} * s;
-  return L;
-}
+/// L(j omega) = C Q P, factor by factor.
+template <typename Real>
+class OpenLoop {
+  using Complex = std::complex<Real>;
+
+ public:
+  explicit OpenLoop(const Loop& loop)
+      : gains_(gains<Real>(loop)),
+        integrators_(integrators(loop.family.plant)),
+        lags_(lags(loop)),
+        n_(loop.family.n),
+        lag_(static_cast<Real>(lag(loop))),
+        tau_f_(static_cast<Real>(loop.setting.tau_f)) {}
+
+  Complex operator()(Real omega) const {
+    Complex L = std::polar(Real{1}, -omega) * controller(omega);
+    for (int i = 0; i < integrators_; ++i) L = {L.imag() / omega, -L.real() / omega};
+    for (int i = 0; i < lags_; ++i) L = behind_lag(L, lag_ * omega);
+    for (int i = 0; i < n_; ++i) L = behind_lag(L, tau_f_ * omega);
+    return L;
+  }
+
+ private:
+  /// K_-1/s + K_0 + K_1 s + ..., powers of s from -1 up: -j/omega, 1, j omega, -omega^2, ...
+  Complex controller(Real omega) const {
+    Real real = 0, imaginary = 0, power = 1 / omega;
+    for (std::size_t i = 0; i < gains_.size(); ++i, power *= omega) {
+      const Real term = (i % 4 == 0 || i % 4 == 3 ? -1 : 1) * gains_[i] * power;
+      (i % 2 == 0 ? imaginary : real) += term;
+    }
+    return {real, imaginary};
+  }
+
+  /// x/(1 + j T omega)
+  static Complex behind_lag(Complex x, Real T_omega) {
+    const Real d = 1 + T_omega * T_omega;
+    return {(x.real() + x.imag() * T_omega) / d, (x.imag() - x.real() * T_omega) / d};
+  }
+
+  std::vector<Real> gains_;
+  int integrators_, lags_, n_;
+  Real lag_, tau_f_;
+};
 
 // ---------------------------------------------------------------- responses
 
@@ -62,7 +97,7 @@ struct Rest {
 
 /// P(0) = 1 of a plant without integrators, inf of one with; K_-1/s at s = 0 is inf.
 Rest at_rest(const Loop& loop, bool setpoint) {
-  const std::vector<Real> K = gains(loop);
+  const std::vector<Real> K = gains<Real>(loop);
   const bool integral = K[0] > 0, integrating = integrators(loop.family.plant) > 0;
   if (integrating) return {setpoint ? 1 : integral ? 0 : 1 / K[1], Real(setpoint ? 0 : -1)};
   if (integral) return {Real(setpoint ? 1 : 0), Real(setpoint ? 1 : -1)};
@@ -113,98 +148,120 @@ bool put_step(const Loop& loop, bool setpoint, int dead_times, int fineness, Mea
 
 // ---------------------------------------------------------------- margins
 
+/// Of the walk, in double: it only says between which two frequencies to look in long double.
 struct Sample {
-  Real omega;
-  Complex L;
+  double omega;
+  std::complex<double> L;
+  double squared;  ///< |L|^2
 };
 
-/// Steps of 2 % to 1e-3, where nothing turns; then of 0.4 % or 0.02, up to where |L| has fallen below a tenth of its value at any phase crossover, or 1000.
+/// Steps of 2 % to 1e-3, where nothing turns; then of 0.4 %, at most 0.02 and from 60 on 0.06, up to where |L| has fallen below a
+/// tenth of its value at any phase crossover, or 1000.
+double step_from(double omega, int fineness) {
+  const double part = omega < 1e-3 ? 0.02 : 0.004, most = omega < 60 ? 0.02 : 0.06;
+  return std::min(part * omega, most) / fineness;
+}
+
 std::vector<Sample> walk(const Loop& loop, int fineness) {
+  const OpenLoop<double> at(loop);
   std::vector<Sample> samples;
-  const Real part = Real{0.004L} / fineness, most = Real{0.02L} / fineness;
-  Real crossing = 0;  // the largest |L| below 1 at which it met the negative real axis
-  for (Real omega = 1e-11L; omega < 1000; omega += std::min((omega < Real{1e-3L} ? 5 : 1) * part * omega, most)) {
-    const Complex L = open_loop_at(loop, omega);
-    if (!samples.empty() && L.imag() * samples.back().L.imag() < 0 && L.real() < 0 && std::abs(L) < 1)
-      crossing = std::max(crossing, std::abs(L));
-    samples.push_back({omega, L});
-    if (omega > 60 && std::abs(L) < crossing / 10 && std::abs(L) < Real{1e-3L}) break;
+  double crossing = 0;  // the largest |L|^2 below 1 at which it met the negative real axis
+  for (double omega = 1e-11; omega < 1000; omega += step_from(omega, fineness)) {
+    const std::complex<double> L = at(omega);
+    const double squared = std::norm(L);
+    if (!samples.empty() && L.imag() * samples.back().L.imag() < 0 && L.real() < 0 && squared < 1)
+      crossing = std::max(crossing, squared);
+    samples.push_back({omega, L, squared});
+    if (omega > 60 && squared < crossing / 100 && squared < 1e-6) break;
   }
   return samples;
 }
 
-/// Where f, of different sign at both ends, is 0.
+/// Where f, of different sign at both ends, is 0: false position, the value at an end that stays halved each time (Illinois).
 template <typename Function>
-Real bisected(const Function& f, Real low, Real high) {
-  const bool negative = f(low) < 0;
-  for (int i = 0; i < 70; ++i) {
-    const Real middle = (low + high) / 2;
-    ((f(middle) < 0) == negative ? low : high) = middle;
+Real zero_between(const Function& f, Real low, Real high) {
+  Real at_low = f(low), at_high = f(high), x = low;
+  for (int i = 0; i < 70 && at_low * at_high < 0; ++i) {
+    x = high - at_high * (high - low) / (at_high - at_low);
+    const Real here = f(x);
+    if (std::abs(high - x) <= 2 * std::numeric_limits<Real>::epsilon() * x) break;
+    if (here * at_high < 0)
+      low = high, at_low = at_high;
+    else
+      at_low /= 2;
+    high = x, at_high = here;
   }
-  return low;
+  return x;
 }
 
-template <typename Function>
-Real peak(const std::vector<Sample>& samples, const Function& of) {
-  const auto at = [&](std::size_t i) { return of.height(samples[i].L); };
-  Real highest = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) highest = std::max(highest, at(i));
-  Real best = highest;
-  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
-    if (at(i) < at(i - 1) || at(i) < at(i + 1) || at(i) < Real{0.9L} * highest) continue;
-    Real low = samples[i - 1].omega, high = samples[i + 1].omega;
-    for (int k = 0; k < 90; ++k) {  // thirds: f has one peak in between
-      const Real a = low + (high - low) / 3, b = high - (high - low) / 3;
-      const Real left = of.height(of.L(a)), right = of.height(of.L(b));
-      best = std::max({best, left, right});
-      (left < right ? low : high) = left < right ? a : b;
-    }
+constexpr auto kSquaredSensitivity = []<typename T>(std::complex<T> L) { return 1 / std::norm(T{1} + L); };
+constexpr auto kSquaredComplementary = []<typename T>(std::complex<T> L) {
+  return std::norm(L) / std::norm(T{1} + L);
+};
+
+/// The peak between two frequencies, f having one in between: thirds, to 1e-8 of their distance, where a peak is flat.
+template <typename Height>
+Real peak_between(const OpenLoop<Real>& at, const Height& height, Real low, Real high) {
+  Real best = 0;
+  for (int k = 0; k < 45; ++k) {
+    const Real a = low + (high - low) / 3, b = high - (high - low) / 3;
+    const Real left = height(at(a)), right = height(at(b));
+    best = std::max({best, left, right});
+    (left < right ? low : high) = left < right ? a : b;
   }
   return best;
 }
 
-struct Sensitivity {
-  const Loop& loop;
-  bool complementary;
-  Complex L(Real omega) const { return open_loop_at(loop, omega); }
-  Real height(Complex L) const { return (complementary ? std::abs(L) : 1) / std::abs(Real{1} + L); }
-};
+/// The highest of f over all frequencies, f^2 = height(L).
+template <typename Height>
+Real peak(const OpenLoop<Real>& at, const std::vector<Sample>& samples, const Height& height) {
+  std::vector<double> heights;
+  for (const Sample& sample : samples) heights.push_back(height(sample.L));
+  const double highest = *std::max_element(heights.begin(), heights.end());
+  Real best = std::max(height(at(samples.front().omega)), height(at(samples.back().omega)));
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i)
+    if (heights[i] >= heights[i - 1] && heights[i] >= heights[i + 1] && heights[i] >= 0.81 * highest)
+      best = std::max(best, peak_between(at, height, samples[i - 1].omega, samples[i + 1].omega));
+  return std::sqrt(best);
+}
 
 /// lim |L| as omega -> inf: above 0 where the controller's derivative is not filtered and the plant has one lag or integrator.
 Real neutral_gain(const Loop& loop) {
-  const std::vector<Real> K = gains(loop);
+  const std::vector<Real> K = gains<Real>(loop);
   const int least = integrators(loop.family.plant) + lags(loop);
   if (loop.family.n > 0 || K.size() < 3 || least != 1) return 0;
   return lags(loop) == 1 ? K[2] / lag(loop) : K[2];
 }
 
-void put_peaks(const Loop& loop, const std::vector<Sample>& samples, MeasureRow& row) {
-  const Real beyond = neutral_gain(loop), K_0 = gains(loop)[1];
-  const bool integrates = gains(loop)[0] > 0 || integrators(loop.family.plant) > 0;
-  row[Measure::Ms] = static_cast<double>(std::max(peak(samples, Sensitivity{loop, false}), 1 / (1 - beyond)));
+void put_peaks(const Loop& loop, const OpenLoop<Real>& at, const std::vector<Sample>& samples, MeasureRow& row) {
+  const Real beyond = neutral_gain(loop), K_0 = gains<Real>(loop)[1];
+  const bool integrates = gains<Real>(loop)[0] > 0 || integrators(loop.family.plant) > 0;
+  row[Measure::Ms] = static_cast<double>(std::max(peak(at, samples, kSquaredSensitivity), 1 / (1 - beyond)));
   const Real before = integrates ? 1 : K_0 / (1 + K_0);
-  row[Measure::Mt] = static_cast<double>(
-      std::max({peak(samples, Sensitivity{loop, true}), beyond / (1 - beyond), before}));
+  row[Measure::Mt] =
+      static_cast<double>(std::max({peak(at, samples, kSquaredComplementary), beyond / (1 - beyond), before}));
 }
 
-void put_gain_margins(const Loop& loop, const std::vector<Sample>& samples, MeasureRow& row) {
+void put_gain_margins(const Loop& loop, const OpenLoop<Real>& at, const std::vector<Sample>& samples,
+                      MeasureRow& row) {
   Real above = neutral_gain(loop) > 0 ? 1 / neutral_gain(loop) : Real{kInf}, below = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     if (samples[i].L.imag() * samples[i - 1].L.imag() > 0 || samples[i].L.real() > 0) continue;
-    const Real omega = bisected([&](Real w) { return open_loop_at(loop, w).imag(); }, samples[i - 1].omega, samples[i].omega);
-    const Real factor = 1 / std::abs(open_loop_at(loop, omega));
+    const Real omega = zero_between([&](Real w) { return at(w).imag(); }, samples[i - 1].omega, samples[i].omega);
+    const Real factor = 1 / std::abs(at(omega));
     (factor > 1 ? above : below) = factor > 1 ? std::min(above, factor) : std::max(below, factor);
   }
   row[Measure::GM] = static_cast<double>(above), row[Measure::GM_low] = static_cast<double>(below);
 }
 
-void put_phase_margins(const Loop& loop, const std::vector<Sample>& samples, MeasureRow& row) {
+void put_phase_margins(const OpenLoop<Real>& at, const std::vector<Sample>& samples, MeasureRow& row) {
   constexpr Real pi = std::numbers::pi_v<Real>;
   Real phase = kInf, delay = kInf;
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    if ((std::abs(samples[i].L) < 1) == (std::abs(samples[i - 1].L) < 1)) continue;
-    const Real omega = bisected([&](Real w) { return std::abs(open_loop_at(loop, w)) - 1; }, samples[i - 1].omega, samples[i].omega);
-    const Real turn = std::arg(-open_loop_at(loop, omega));  // from -1, lead positive
+    if ((samples[i].squared < 1) == (samples[i - 1].squared < 1)) continue;
+    const Real omega =
+        zero_between([&](Real w) { return std::norm(at(w)) - 1; }, samples[i - 1].omega, samples[i].omega);
+    const Real turn = std::arg(-at(omega));  // from -1, lead positive
     phase = std::min(phase, std::abs(turn) * 180 / pi);
     delay = std::min(delay, (turn < 0 ? turn + 2 * pi : turn) / omega);
   }
@@ -223,10 +280,11 @@ Independent measured_independently(const Loop& loop, int dead_times, int finenes
   const bool of_w = put_step(loop, true, dead_times, fineness, found.measures);
   const bool of_d = put_step(loop, false, dead_times, fineness, found.measures);
   found.status = of_w && of_d ? Status::settled : Status::not_settled;
+  const OpenLoop<Real> at(loop);
   const std::vector<Sample> samples = walk(loop, fineness);
-  put_peaks(loop, samples, found.measures);
-  put_gain_margins(loop, samples, found.measures);
-  put_phase_margins(loop, samples, found.measures);
+  put_peaks(loop, at, samples, found.measures);
+  put_gain_margins(loop, at, samples, found.measures);
+  put_phase_margins(at, samples, found.measures);
   return found;
 }
 

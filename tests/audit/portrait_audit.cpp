@@ -2,13 +2,15 @@
 ///
 /// Draws loops of all families and measures each by the kernel, by the reference and by independent means
 /// (tests/audit/independent.h). Prints how the errors of the first two against the third are distributed, and the worst of each
-/// kind as a command that simulates it. A loop has its own seed, so --first I --loops 1 draws loop I alone.
+/// kind as a command that simulates it. A loop has its own seed, so --first I --loops 1 draws loop I alone. SIGINT or SIGTERM ends it
+/// early, with the report of the loops that are done: --first goes on behind them.
 ///
 /// exit code  0; 1 when an error is above what the kernel promises, a status differs, or a loop is found stable that is not
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -17,6 +19,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "engine/base/error.h"
 #include "engine/loop/parameters.h"
@@ -110,13 +113,27 @@ void check_stability(Report& report, std::mutex& mutex, oracle::Random& random, 
       report.find(fmt::format("stability is {} by contour, not by {}: {}", is_stable, kMethodNames[method], simulate_command(loop)));
 }
 
+volatile std::sig_atomic_t ended = 0;
+
+/// On a terminal, ten times over the whole in a file.
+void show_progress(std::uint64_t begun, std::uint64_t loops, double seconds) {
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  if (begun % (terminal ? 1000 : std::max<std::uint64_t>(loops / 10, 1)) == 0 && begun > 0)
+    fmt::print(stderr, "{}{} of {} loops begun, {:.0f} s{}", terminal ? "\r" : "", begun, loops, seconds,
+               terminal ? " " : "\n");
+}
+
 Report audit(const Arguments& a) {
   Report report;
   std::mutex mutex;
   std::atomic<std::uint64_t> next = 0;
   const auto began = std::chrono::steady_clock::now();
+  const auto seconds = [began] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  };
   const auto work = [&] {
-    for (std::uint64_t i = next++; i < a.loops; i = next++) {
+    for (std::uint64_t i = next++; i < a.loops && ended == 0; i = next++) {
+      show_progress(i, a.loops, seconds());
       oracle::Random random((a.seed << 40) + a.first + i);
       const Loop loop = drawn(random);
       const int dead_times = 10 + random.below(40);
@@ -133,7 +150,7 @@ Report audit(const Arguments& a) {
   for (int i = 1; i < threads; ++i) others.emplace_back(work);
   work();
   others.clear();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  report.seconds = seconds();
   for (auto& family : report.errors)
     for (auto& method : family)
       for (Errors& errors : method) std::sort(errors.largest.begin(), errors.largest.end());
@@ -143,8 +160,10 @@ Report audit(const Arguments& a) {
 // ---------------------------------------------------------------- output
 
 void print_table(const Report& report, const Arguments& a) {
-  fmt::print("{} stable loops, seed {}, from {} on, {:.0f} s; {}; {} were left to the reference by the kernel\n", report.loops, a.seed,
-             a.first, report.seconds, method_text(Method::kernel), report.by_reference);
+  fmt::print(
+      "{} stable loops of {} asked, seed {}, from {} on, {:.0f} s; {}; {} were left to the reference by the "
+      "kernel\n",
+      report.loops, a.loops, a.seed, a.first, report.seconds, method_text(Method::kernel), report.by_reference);
   fmt::print("as many with another gain, of which {} are unstable, by all three\n\n", report.unstable);
   fmt::print("{:<10} {:>7}  {:<10} {:<10} {:>9} {:>9} {:>9} {:>9}\n", "family", "loops", "measures", "method", "half", "99 %", "worst",
              "promised");
@@ -193,6 +212,7 @@ int run(int count, char** words) {
   app.add_option("--threads", a.threads, "default: all")->check(CLI::Range(1, 4096));
   app.add_flag("--json", a.json, "one JSON object");
   CLI11_PARSE(app, count, words);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { ended = 1; });
   const Report report = audit(a);
   a.json ? print_json(report, a) : print_table(report, a);
   return report.findings_in_all == 0 ? 0 : 1;

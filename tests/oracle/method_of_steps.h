@@ -69,8 +69,8 @@ class MethodOfSteps {
       u[j] = controller(j, prefiltered(j) - y[j], y_slope);
       drive_plant(j, u[j] + (j == 0 ? d_ : 0));
     }
-    y_.push_back({start, length, y});
-    u_.push_back({start, length, u});
+    y_.push_back({start, length, trimmed(y, length)});
+    u_.push_back({start, length, trimmed(u, length)});
     z_.push_back(output_.c);
     for (State* state : {&lag_, &lag_slope_, &integral_, &output_, &output_slope_})
       state->restart(value(state->c, length));

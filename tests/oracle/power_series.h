@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace portrait::oracle {
@@ -41,6 +42,18 @@ inline PowerSeries antiderivative(const PowerSeries& c) {
   return s;
 }
 
+/// Without the last terms, as far as all of them together are below a hundredth of the rounding of f's largest term.
+inline PowerSeries trimmed(const PowerSeries& c, Real length) {
+  constexpr Real kBelow = std::numeric_limits<Real>::epsilon() / 100;
+  std::vector<Real> terms;
+  Real power = 1, largest = 0, rest = 0;
+  for (const Real of : c)
+    terms.push_back(std::abs(of) * power), largest = std::max(largest, terms.back()), power *= length;
+  std::size_t left = c.size();
+  while (left > 1 && (rest += terms[left - 1]) <= kBelow * largest) --left;
+  return {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(left)};
+}
+
 /// Whether c_0 outweighs all other terms on 0 <= x <= length: then f has no zero there.
 inline bool has_no_zero(const PowerSeries& c, Real length) {
   Real rest = 0;
@@ -48,14 +61,28 @@ inline bool has_no_zero(const PowerSeries& c, Real length) {
   return std::abs(c[0]) > rest;
 }
 
-inline std::vector<Real> sign_changes(const PowerSeries& c, Real length) {
+/// sum k |c_k| length^(k - 1)
+inline Real steepest(const PowerSeries& c, Real length) {
+  Real sum = 0;
+  for (std::size_t k = c.size(); k-- > 1;) sum = sum * length + static_cast<Real>(k) * std::abs(c[k]);
+  return sum;
+}
+
+inline std::vector<Real> sign_changes(const PowerSeries& series, Real length) {
   constexpr int kRaster = 256;
   std::vector<Real> found;
-  if (c.empty() || has_no_zero(c, length)) return found;
-  for (int i = 0; i < kRaster; ++i) {
-    Real left = length * i / kRaster, right = length * (i + 1) / kRaster;
-    const bool negative = value(c, left) < 0;
-    if ((value(c, right) < 0) == negative) continue;
+  if (series.empty() || has_no_zero(series, length)) return found;
+  const PowerSeries c = trimmed(series, length);
+  const Real step = length / kRaster, fall = steepest(c, length) * step;
+  Real here = value(c, 0);
+  for (int i = 0; i < kRaster;) {
+    const Real steps = std::abs(here) / fall;  // f has no zero so near
+    const int next = steps < kRaster ? std::min(kRaster, i + std::max(1, static_cast<int>(steps))) : kRaster;
+    Real left = step * i, right = next == kRaster ? length : step * next;
+    const bool negative = here < 0;
+    here = value(c, right);
+    i = next;
+    if ((here < 0) == negative) continue;
     for (int halving = 0; halving < 70; ++halving) {
       const Real middle = (left + right) / 2;
       ((value(c, middle) < 0) == negative ? left : right) = middle;

@@ -112,6 +112,7 @@ class DebianPackage(unittest.TestCase):
             run("dpkg-deb", "-x", made[0], f"{folder}/unpacked")
             unpacked = pathlib.Path(folder, "unpacked", "usr")
             self.assertTrue(run(unpacked / "bin/portrait", "--version").startswith(f"portrait {version()} ("))
+            self.assertEqual((unpacked / "share/doc/portrait/copyright").read_text(), (SOURCES / "LICENSE").read_text())
             page = unpacked / "share/man/man1/portrait-query.1"
             self.assertTrue(page.exists() or page.with_name("portrait-query.1.gz").exists())
 
