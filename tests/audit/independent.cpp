@@ -111,16 +111,16 @@ Real largest_from(const std::vector<Real>& points, Real rest) {
   return largest;
 }
 
-/// Of the last dead time, its own beginning included, against the whole.
-bool is_settled(const oracle::Signal& signal, std::size_t pieces, Real rest) {
+/// Of the last dead time, its own beginning included, against the whole, whose turning points are given.
+bool is_settled(const oracle::Signal& signal, const std::vector<Real>& whole, std::size_t pieces, Real rest) {
   const oracle::Signal last(signal.end() - static_cast<std::ptrdiff_t>(pieces), signal.end());
   std::vector<Real> points = oracle::turning_points(last);
   points.front() = oracle::value(last.front().c, 0);
-  return largest_from(points, rest) <= Real{kSettlingBand} * largest_from(oracle::turning_points(signal), rest);
+  return largest_from(points, rest) <= Real{kSettlingBand} * largest_from(whole, rest);
 }
 
-void put_signal(MeasureRow& row, const std::array<Measure, 4>& of, Measure largest, const oracle::Signal& signal, Real rest) {
-  const std::vector<Real> points = oracle::turning_points(signal);
+void put_signal(MeasureRow& row, const std::array<Measure, 4>& of, Measure largest, const std::vector<Real>& points,
+                Real rest) {
   row[of[0]] = static_cast<double>(oracle::variation(points));
   for (int m = 0; m <= 2; ++m)
     row[of[static_cast<std::size_t>(m) + 1]] = static_cast<double>(oracle::shape_deviation(points, rest, m));
@@ -140,10 +140,11 @@ bool put_step(const Loop& loop, bool setpoint, int dead_times, int fineness, Mea
     row[names.IAE] = static_cast<double>(e.IAE), row[names.ISE] = static_cast<double>(e.ISE);
     row[names.ITAE] = static_cast<double>(e.ITAE), row[names.ITSE] = static_cast<double>(e.ITSE);
   }
-  put_signal(row, names.of_y, names.y_max, exact.y(), rest.y);
-  put_signal(row, names.of_u, names.u_max, exact.u(), rest.u);
+  const std::vector<Real> of_y = oracle::turning_points(exact.y()), of_u = oracle::turning_points(exact.u());
+  put_signal(row, names.of_y, names.y_max, of_y, rest.y);
+  put_signal(row, names.of_u, names.u_max, of_u, rest.u);
   const auto last = static_cast<std::size_t>(pieces);
-  return is_settled(exact.y(), last, rest.y) && is_settled(exact.u(), last, rest.u);
+  return is_settled(exact.y(), of_y, last, rest.y) && is_settled(exact.u(), of_u, last, rest.u);
 }
 
 // ---------------------------------------------------------------- margins
