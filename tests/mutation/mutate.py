@@ -4,7 +4,8 @@
     tests/mutation/mutate.py build/dev engine/measures/variation.cpp tests/engine/measures/measures_test measures_test
     tests/mutation/mutate.py build/dev portraits/query/ranking.cpp tests/portraits/query/query_test query_test --most 20 --seed 3
 
-BUILD, the source, the test program under BUILD, its target; --filter as googletest takes it, --most mutants chosen by --seed. Prints a
+BUILD, the source, the test program under BUILD, its target; --filter as googletest takes it, --most mutants chosen by --seed, or
+those --at places. Prints a
 line a mutant: killed, survived, or not compiled; ends with 1 when one survived. The source is put back, whatever happens. A working
 tree that differs in that file is refused.
 """
@@ -74,6 +75,7 @@ def main():
     parser.add_argument("--filter", default="")
     parser.add_argument("--most", type=int, default=0, help="so many, chosen at random; 0: all")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--at", nargs="*", default=[], metavar="LINE:COLUMN", help="only those that stand there, as they are printed")
     a = parser.parse_args()
     path, build = ROOT / a.source, a.build.resolve()
     if subprocess.run(["git", "-C", ROOT, "diff", "--quiet", "--", a.source], check=False).returncode != 0:
@@ -81,6 +83,8 @@ def main():
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     source = path.read_text()
     all_of_them = mutants(source)
+    if a.at:
+        all_of_them = [m for m in all_of_them if f"{m[0] + 1}:{m[1] + 1}" in a.at]
     chosen = sorted(random.Random(a.seed).sample(all_of_them, a.most)) if 0 < a.most < len(all_of_them) else all_of_them
     counts = {"killed": 0, "survived": 0, "not compiled": 0}
     try:

@@ -169,6 +169,8 @@ TEST(GridValues, finds_the_nearest_of_several_that_match) {
   EXPECT_EQ(index_of_value(values, 1 + 5e-10), 1u);
   EXPECT_EQ(index_of_value(values, 2), 3u);
   EXPECT_EQ(index_of_value(values, 1.5), std::nullopt);
+  const double apart = std::ldexp(1.0, -32);
+  EXPECT_EQ(index_of_value({1 - apart, 1 + apart}, 1), 0u);  // of equally near ones the first
 }
 
 RC_GTEST_PROP(ConstraintProperty, random_words_parse_or_are_refused, ()) {

@@ -1,8 +1,11 @@
 /// Bounds against values: whatever an expression gives for numbers out of the intervals lies in its bound.
 #include "portraits/query/interval.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -88,6 +91,114 @@ TEST(Interval, bounds_are_tight_where_they_can_be) {
   EXPECT_FALSE((x * y).may_be_nan);
   EXPECT_NEAR(raised(x, {2, 3, false}).high, 8, 1e-12);
   EXPECT_NEAR(log(x).high, std::log(2), 1e-15);
+}
+
+/// Ends of which every interval is tried, with what lies in it: its ends, a number near an infinite one, its middle, 0.
+constexpr std::array<double, 8> kEnds = {-kInf, -2, -0.5, 0, 0.5, 1, 3, kInf};
+
+std::vector<Interval> all_intervals() {
+  std::vector<Interval> all;
+  for (std::size_t i = 0; i < kEnds.size(); ++i)
+    for (std::size_t j = i; j < kEnds.size(); ++j) all.push_back({kEnds[i], kEnds[j], false});
+  return all;
+}
+
+std::vector<double> some_of(const Interval& x) {
+  std::vector<double> some;
+  for (const double value : {x.low, x.high, 0.0, -1e300, 1e300, 0.5 * x.low + 0.5 * x.high})
+    if (x.low <= value && value <= x.high) some.push_back(value);
+  return some;
+}
+
+bool is_finite(const Interval& x) { return std::isfinite(x.low) && std::isfinite(x.high); }
+
+/// Least and greatest of some values, and whether NaN is among them.
+Interval hull_of(const std::vector<double>& values) {
+  Interval hull{kInf, -kInf, false};
+  for (const double value : values) {
+    if (std::isnan(value)) {
+      hull.may_be_nan = true;
+      continue;
+    }
+    hull.low = std::min(hull.low, value);
+    hull.high = std::max(hull.high, value);
+  }
+  return hull;
+}
+
+void expect_around(const Interval& bound, const Interval& hull, const std::string& what) {
+  EXPECT_TRUE(!hull.has_numbers() || (bound.low <= hull.low && hull.high <= bound.high)) << what;
+  EXPECT_TRUE(!hull.may_be_nan || bound.may_be_nan) << what;
+}
+
+void expect_just(const Interval& bound, const Interval& hull, const std::string& what) {
+  EXPECT_EQ(bound.has_numbers(), hull.has_numbers()) << what;
+  if (!hull.has_numbers()) return;
+  EXPECT_NEAR(bound.low, hull.low, 1e-12) << what;
+  EXPECT_NEAR(bound.high, hull.high, 1e-12) << what;
+  EXPECT_EQ(bound.may_be_nan, hull.may_be_nan) << what;
+}
+
+TEST(Interval, of_one_operand_is_the_hull_of_its_values) {
+  struct Case {
+    const char* name;
+    Interval (*bound)(const Interval&);
+    double (*value)(double);
+  };
+  const std::vector<Case> cases = {{"-", [](const Interval& x) { return -x; }, [](double a) { return -a; }},
+                                   {"abs", abs, [](double a) { return std::abs(a); }},
+                                   {"sqrt", sqrt, [](double a) { return std::sqrt(a); }},
+                                   {"log", log, [](double a) { return std::log(a); }},
+                                   {"exp", exp, [](double a) { return std::exp(a); }}};
+  for (const Case& one : cases) {
+    for (const Interval& x : all_intervals()) {
+      std::vector<double> values;
+      for (const double a : some_of(x)) values.push_back(one.value(a));
+      const std::string what = fmt::format("{}({}..{})", one.name, x.low, x.high);
+      expect_around(one.bound(x), hull_of(values), what);
+      const bool from_0 = std::string_view(one.name) == "log" && x.low <= 0;  // -inf is a bound, not to be near to
+      if (is_finite(x) && !from_0) expect_just(one.bound(x), hull_of(values), what);
+    }
+    EXPECT_FALSE(one.bound(Interval::none()).has_numbers()) << one.name;
+    EXPECT_TRUE(one.bound({1, 2, true}).may_be_nan) << one.name;
+  }
+}
+
+TEST(Interval, of_two_operands_is_the_hull_of_their_values) {
+  struct Case {
+    const char* name;
+    Interval (*bound)(const Interval&, const Interval&);
+    double (*value)(double, double);
+  };
+  const std::vector<Case> cases = {
+      {"+", [](const Interval& x, const Interval& y) { return x + y; }, [](double a, double b) { return a + b; }},
+      {"-", [](const Interval& x, const Interval& y) { return x - y; }, [](double a, double b) { return a - b; }},
+      {"*", [](const Interval& x, const Interval& y) { return x * y; }, [](double a, double b) { return a * b; }},
+      {"/", [](const Interval& x, const Interval& y) { return x / y; }, [](double a, double b) { return a / b; }},
+      {"^", raised, [](double a, double b) { return std::pow(a, b); }},
+      {"min", smaller, [](double a, double b) { return std::min(a, b); }},
+      {"max", larger, [](double a, double b) { return std::max(a, b); }}};
+  const Interval whole{-kInf, kInf, false};
+  for (const Case& one : cases) {
+    for (const Interval& x : all_intervals())
+      for (const Interval& y : all_intervals()) {
+        std::vector<double> values;
+        for (const double a : some_of(x))
+          for (const double b : some_of(y)) values.push_back(one.value(a, b));
+        const std::string what = fmt::format("{}..{} {} {}..{}", x.low, x.high, one.name, y.low, y.high);
+        expect_around(one.bound(x, y), hull_of(values), what);
+        const bool divides = std::string_view(one.name) == "/", raises = std::string_view(one.name) == "^";
+        const bool unbounded = (divides && y.low <= 0 && y.high >= 0) || (raises && x.low <= 0);
+        if (is_finite(x) && is_finite(y) && !unbounded) expect_just(one.bound(x, y), hull_of(values), what);
+      }
+    EXPECT_FALSE(one.bound(Interval::none(), whole).has_numbers()) << one.name;
+    EXPECT_FALSE(one.bound(whole, Interval::none()).has_numbers()) << one.name;
+    EXPECT_TRUE(one.bound({1, 2, true}, {1, 2, false}).may_be_nan) << one.name;
+    EXPECT_TRUE(one.bound({1, 2, false}, {1, 2, true}).may_be_nan) << one.name;
+  }
+  EXPECT_FALSE((Interval{1, 2, false} * Interval{1, kInf, false}).may_be_nan);
+  EXPECT_FALSE((Interval{1, kInf, false} + Interval{1, kInf, false}).may_be_nan);
+  EXPECT_FALSE((Interval{1, 2, false} / Interval{1, kInf, false}).may_be_nan);
 }
 
 TEST(Outlook, decides_what_the_sides_leave_no_doubt_about) {

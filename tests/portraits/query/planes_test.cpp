@@ -94,6 +94,46 @@ TEST(CrossSection, AdmissibleSettingsAreThoseOfTheQuery) {
     }
 }
 
+TEST(CrossSection, TheViolationIsTheWorstRelativeExcess) {
+  MemorySource source = portrait_of(2);
+  source.at(Measure::Ms, 4) = kNaN;
+  source.at(Measure::IAE_d, 5) = kNaN;
+  source.status(4) = source.status(5) = Status::settled;
+  Question asked = question();
+  for (const char* text : {"IAE_w >= 5", "Ms < 2*IAE_d", "IAE_d == 3"})
+    asked.conditions.where.push_back(parse_constraint({"where", text}));
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    const CrossSection section(source, {}, Parameter::kappa, Parameter::delta, {0, 0, k});
+    const std::vector<double> found = section.violation(asked);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const std::uint64_t n = section.numbers()[i];
+      const double Ms = source.at(Measure::Ms, n), IAE_w = source.at(Measure::IAE_w, n),
+                   IAE_d = source.at(Measure::IAE_d, n), kappa = setting_at(source.grid(), n).kappa;
+      const bool exists = source.status(n) == Status::settled && !std::isnan(Ms + IAE_w + IAE_d);
+      EXPECT_EQ(std::isnan(found[i]), !exists);
+      if (exists) {
+        EXPECT_DOUBLE_EQ(found[i], std::max({(Ms - 8) / 8, (0.15 - kappa) / 0.15, (5 - IAE_w) / 5,
+                                             (Ms - 2 * IAE_d) / (2 * IAE_d)}));
+      }
+    }
+  }
+}
+
+TEST(CrossSection, MeasuresAndControllersAreInTheQuestionsUnits) {
+  const MemorySource source = portrait_of(3);
+  const RealPlant plant{Plant::dipdt, -2, 3, 0};
+  const CrossSection section(source, {plant, {2, 1}}, Parameter::kappa, Parameter::delta, {0, 0, 1});
+  const std::vector<double> sums = section.values(parse_expression({"", "IAE_w"}));
+  const std::vector<double> gains = section.values(parse_expression({"", "Kc"}));
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const std::uint64_t n = section.numbers()[i];
+    if (source.status(n) != Status::unstable) {
+      EXPECT_EQ(sums[i], source.at(Measure::IAE_w, n) * 3 * 2);  // times Td and the step
+    }
+    EXPECT_DOUBLE_EQ(gains[i], setting_at(source.grid(), n).kappa / -18);
+  }
+}
+
 TEST(Cloud, FrontIsThatOfEveryPairCompared) {
   const Expression x = parse_expression({"x", "IAE_w"}), y = parse_expression({"y", "Ms + IAE_d"});
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -118,6 +158,60 @@ TEST(Cloud, FrontIsThatOfEveryPairCompared) {
     ASSERT_EQ(found.front.size(), front.size()) << seed;
     for (std::size_t k = 0; k < front.size(); ++k) EXPECT_EQ(found.front[k].number, front[k].number) << seed;
   }
+}
+
+TEST(Cloud, HoldsEveryEligibleSetting) {
+  const Expression x = parse_expression({"x", "IAE_w"}), y = parse_expression({"y", "Ms + IAE_d"});
+  for (const bool include : {false, true}) {
+    MemorySource source = portrait_of(3);
+    source.at(Measure::IAE_w, 7) = kInf;
+    source.at(Measure::Ms, 8) = kNaN;
+    const Question asked = question(include);
+    const Cloud found = cloud(source, x, y, asked.conditions);
+    std::size_t next = 0;
+    for (std::uint64_t n = 0; n < 60; ++n) {
+      const double at_x = source.at(Measure::IAE_w, n), Ms = source.at(Measure::Ms, n),
+                   at_y = Ms + source.at(Measure::IAE_d, n);
+      const Status status = source.status(n);
+      const bool eligible = status == Status::settled || (include && status == Status::not_settled);
+      if (!eligible || !std::isfinite(at_x) || !std::isfinite(at_y)) continue;
+      ASSERT_LT(next, found.points.size());
+      const CloudPoint& p = found.points[next++];
+      EXPECT_EQ(p.number, n);
+      EXPECT_EQ(p.x, at_x);
+      EXPECT_EQ(p.y, at_y);
+      EXPECT_EQ(p.admissible, Ms <= 8 && setting_at(source.grid(), n).kappa > 0.15);
+    }
+    EXPECT_EQ(next, found.points.size());
+  }
+}
+
+TEST(Cloud, KeepsEveryKthOfMoreSettingsThanItShows) {
+  for (const auto& [settings, every] : {std::pair<std::uint64_t, std::uint64_t>{kMostPoints, 1},
+                                        {kMostPoints + 1, 2},
+                                        {2 * kMostPoints, 2},
+                                        {2 * kMostPoints + 1, 3}}) {
+    Grid grid;
+    grid.family = {Plant::ipdt, 0, Prefilter::none};
+    grid.measures = {Measure::IAE_w};
+    grid.axes = {Axis::linear(Parameter::kappa, 0.1, 1, settings)};
+    grid.fixed = {{Parameter::tau_i, 8}, {Parameter::delta, 0}};
+    const Expression one = parse_expression({"", "IAE_w"});
+    const Cloud found = cloud(MemorySource(grid), one, parse_expression({"", "kappa"}), {});
+    ASSERT_EQ(found.points.size(), (settings + every - 1) / every);
+    for (std::size_t i = 0; i < found.points.size(); ++i) ASSERT_EQ(found.points[i].number, i * every);
+    EXPECT_EQ(found.admissible, settings);
+  }
+}
+
+TEST(Cloud, AnExpressionAtASettingIsThatOfItsNumbers) {
+  MeasureRow row;
+  row[Measure::IAE_w] = 5;
+  const Setting setting{.kappa = 0.3, .tau_i = 8, .delta = 0.6};
+  const QueryUnits units{RealPlant{Plant::ipdt, 2, 0.5, 0}, {}};
+  EXPECT_DOUBLE_EQ(value_at(parse_expression({"", "IAE_w + 10*kappa + tau_d"}), setting, row, units), 5 + 3 + 2);
+  EXPECT_DOUBLE_EQ(value_at(parse_expression({"", "Kc"}), setting, row, units), 0.3 / (2 * 0.5));
+  EXPECT_TRUE(std::isnan(value_at(parse_expression({"", "Ms"}), setting, row, units)));
 }
 
 TEST(ColumnCache, GivesTheSameNumbersAndReadsEachColumnOnce) {

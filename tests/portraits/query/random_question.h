@@ -72,9 +72,9 @@ inline MemorySource random_source(const Grid& grid) {
   return source;
 }
 
-inline TreeConstraint random_constraint() {
+inline TreeConstraint random_constraint(const std::vector<Quantity>& names) {
   const auto relation = static_cast<Relation>(*rc::gen::inRange(0, 5));
-  if (*rc::gen::inRange(0, 3) == 0) return {random_tree(2, kNamed), relation, random_tree(2, kNamed)};
+  if (*rc::gen::inRange(0, 3) == 0) return {random_tree(2, names), relation, random_tree(2, names)};
   Tree bound;
   bound.number = *rc::gen::element(0.25, 1.0, 2.0, 4.0, 20.0);
   Tree measure = random_leaf(kMeasured);
@@ -83,11 +83,21 @@ inline TreeConstraint random_constraint() {
 }
 
 inline Case random_case(const Grid& grid) {
-  const Tree objective = random_tree(*rc::gen::inRange(0, 3), kNamed);
+  QueryUnits units;
+  std::vector<Quantity> names = kNamed;
+  if (*rc::gen::arbitrary<bool>()) {
+    const bool fotd = grid.family.plant == Plant::fotd;
+    const double Td = *rc::gen::element(0.5, 1.0, 3.0);
+    units.plant = RealPlant{grid.family.plant, *rc::gen::element(-2.0, 0.5), Td,
+                            fotd ? Td * *rc::gen::element(0.5, 1.5, 3.0) : 0};
+    units.steps = {*rc::gen::element(0.5, 1.0, 4.0), *rc::gen::element(0.25, 1.0, 3.0)};
+    names.insert(names.end(), {ControllerValue::Kc, ControllerValue::Ki, ControllerValue::Kd});
+  }
+  const Tree objective = random_tree(*rc::gen::inRange(0, 3), names);
   Case one{objective, {}, {.minimize = parse_expression({"--minimize", print(objective)}), .conditions = {}}};
   const int constraints = *rc::gen::inRange(0, 5);
   for (int j = 0; j < constraints; ++j) {
-    one.where.push_back(random_constraint());
+    one.where.push_back(random_constraint(names));
     const TreeConstraint& c = one.where.back();
     const std::string relation(to_string(c.relation));
     one.question.conditions.where.push_back(
@@ -97,13 +107,7 @@ inline Case random_case(const Grid& grid) {
   one.question.count_excluded = *rc::gen::arbitrary<bool>();
   one.question.conditions.threads = *rc::gen::inRange(1, 4);
   one.question.conditions.include_not_settled = *rc::gen::arbitrary<bool>();
-  if (*rc::gen::arbitrary<bool>()) {
-    const bool fotd = grid.family.plant == Plant::fotd;
-    const double Td = *rc::gen::element(0.5, 1.0, 3.0);
-    one.question.conditions.units.plant = RealPlant{grid.family.plant, *rc::gen::element(-2.0, 0.5), Td,
-                                                    fotd ? Td * *rc::gen::element(0.5, 1.5, 3.0) : 0};
-    one.question.conditions.units.steps = {*rc::gen::element(0.5, 1.0, 4.0), *rc::gen::element(0.25, 1.0, 3.0)};
-  }
+  one.question.conditions.units = units;
   return one;
 }
 
