@@ -2,20 +2,25 @@
 """Changes one token of a source at a time, builds a test program and runs it: a mutant that all tests let pass shows what none checks.
 
     tests/mutation/mutate.py build/dev engine/measures/variation.cpp tests/engine/measures/measures_test measures_test
-    tests/mutation/mutate.py build/dev portraits/query/ranking.cpp tests/portraits/query/query_test query_test --most 20 --seed 3
+    tests/mutation/mutate.py build/dev portraits/query/ranking.cpp tests/portraits/query/portraits_query_test portraits_query_test --most 20
+    tests/mutation/mutate.py build/dev engine/kernel/gain.inl tests/engine/kernel/kernel_test kernel_test --unit engine/isa/base.cpp --flags=-O1
 
-BUILD, the source, the test program under BUILD, its target; --filter as googletest takes it, --most mutants chosen by --seed, or
-those --at places. Prints a
-line a mutant: killed, survived, or not compiled; ends with 1 when one survived. The source is put back, whatever happens. A working
-tree that differs in that file is refused.
+BUILD, the source, the test program under BUILD, its target; --filter as googletest takes it, --most mutants chosen by --seed, or those
+--at places. Prints a line a mutant: killed, survived, or not compiled; ends with 1 when one survived.
+
+The working tree and the build stay as they are: a mutant is a copy, compiled alone with --flags and linked before the libraries. A
+file that is included is changed for one --unit only; what includes it otherwise keeps it.
 """
 
 import argparse
 import random
 import re
-import signal
+import shlex
+import shutil
 import subprocess
 import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -55,15 +60,40 @@ def mutated(source, mutant):
     return "\n".join(lines)
 
 
-def outcome(build, target, program, tests):
-    made = subprocess.run(["cmake", "--build", build, "--target", target], capture_output=True, check=False)
-    if made.returncode != 0:
-        return "not compiled"
-    words = [program, "--gtest_brief=1", "--gtest_fail_fast"] + ([f"--gtest_filter={tests}"] if tests else [])
-    try:
-        return "survived" if subprocess.run(words, capture_output=True, timeout=120, check=False).returncode == 0 else "killed"
-    except subprocess.TimeoutExpired:
-        return "killed"
+class Program:
+    """How a test program is built with one object of its own."""
+
+    def __init__(self, build, program, target, source, unit, flags, tests):
+        said = subprocess.run(["ninja", "-C", build, "-t", "commands", target], capture_output=True, text=True, check=True).stdout
+        lines = said.splitlines()
+        ours = [words for words in map(shlex.split, (line for line in lines if " -c " in line))
+                if (build / words[-1]).resolve() == ROOT / unit]
+        assert len(ours) == 1, f"{target} does not compile {unit}"
+        words = ours[0][1:] if ours[0][0].endswith("ccache") else ours[0]
+        self.compile = words[:words.index("-MD")] + flags
+        link = shlex.split(lines[-1])
+        link = link[link.index("&&") + 1:]
+        self.link = link[:link.index("&&")] if "&&" in link else link
+        assert self.link[self.link.index("-o") + 1] == program, f"{target} is not {program}"
+        self.build, self.source, self.unit, self.tests = build, source, unit, tests
+
+    def outcome(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            copy, made, program = Path(folder) / self.source, Path(folder) / "mutant.o", Path(folder) / "program"
+            copy.parent.mkdir(parents=True)
+            copy.write_text(text)
+            unit = copy if self.unit == self.source else ROOT / self.unit
+            compiled = [self.compile[0], f"-I{folder}", *self.compile[1:], "-o", made, "-c", unit]
+            linked = [program if word == self.link[self.link.index("-o") + 1] else word for word in self.link]
+            linked[1:1] = ["-Wl,-s", *(["-fuse-ld=lld"] if shutil.which("ld.lld") else []), made]
+            for words in (compiled, linked):
+                if subprocess.run(words, cwd=self.build, capture_output=True, check=False).returncode != 0:
+                    return "not compiled"
+            words = [program, "--gtest_brief=1", "--gtest_fail_fast"] + ([f"--gtest_filter={self.tests}"] if self.tests else [])
+            try:
+                return "survived" if subprocess.run(words, capture_output=True, timeout=300, check=False).returncode == 0 else "killed"
+            except subprocess.TimeoutExpired:
+                return "killed"
 
 
 def main():
@@ -76,28 +106,25 @@ def main():
     parser.add_argument("--most", type=int, default=0, help="so many, chosen at random; 0: all")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--at", nargs="*", default=[], metavar="LINE:COLUMN", help="only those that stand there, as they are printed")
+    parser.add_argument("--unit", help="what to compile: the source itself, or what includes it")
+    parser.add_argument("--flags", type=str.split, default=["-O0", "-g0"], help="the last of the compiler's")
+    parser.add_argument("--jobs", type=int, default=1)
     a = parser.parse_args()
-    path, build = ROOT / a.source, a.build.resolve()
-    if subprocess.run(["git", "-C", ROOT, "diff", "--quiet", "--", a.source], check=False).returncode != 0:
-        parser.error(f"{a.source} has changes that are not committed")
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    source = path.read_text()
+    build = a.build.resolve()
+    subprocess.run(["cmake", "--build", build, "--target", a.target], capture_output=True, check=True)
+    program = Program(build, a.program, a.target, a.source, a.unit or a.source, a.flags, a.filter)
+    source = (ROOT / a.source).read_text()
     all_of_them = mutants(source)
     if a.at:
         all_of_them = [m for m in all_of_them if f"{m[0] + 1}:{m[1] + 1}" in a.at]
     chosen = sorted(random.Random(a.seed).sample(all_of_them, a.most)) if 0 < a.most < len(all_of_them) else all_of_them
+    if program.outcome(source) != "survived":
+        parser.error("the tests do not pass as it is")
     counts = {"killed": 0, "survived": 0, "not compiled": 0}
-    try:
-        if outcome(build, a.target, build / a.program, a.filter) != "survived":
-            parser.error("the tests do not pass as it is")
-        for mutant in chosen:
-            path.write_text(mutated(source, mutant))
-            said = outcome(build, a.target, build / a.program, a.filter)
+    with ThreadPoolExecutor(a.jobs) as pool:
+        for mutant, said in zip(chosen, pool.map(lambda m: program.outcome(mutated(source, m)), chosen)):
             counts[said] += 1
             print(f"{a.source}:{mutant[0] + 1}:{mutant[1] + 1}: {mutant[2].strip()} -> {mutant[3].strip() or '(nothing)'}: {said}", flush=True)
-    finally:
-        path.write_text(source)
-        subprocess.run(["cmake", "--build", build, "--target", a.target], capture_output=True, check=False)
     print(f"{a.source}: {len(chosen)} of {len(all_of_them)} mutants, " + ", ".join(f"{n} {what}" for what, n in counts.items()))
     return 1 if counts["survived"] else 0
 

@@ -68,6 +68,51 @@ TEST(Catalogue, TheUnitIsThatOfTheSignal) {
   for (const char* name : {"Ms", "Mt", "GM", "GM_low"}) EXPECT_EQ(unit(name), Unit::one) << name;
 }
 
+static_assert(all_measures().back() == Measure::expected_sigma_ratio);
+static_assert(standard_measures().back() == Measure::noise_gain);
+static_assert(noisy_measures().front() == Measure::noisy_TV_yw);
+
+/// The first 37 are the standard ones; the last 35, from noisy_TV_yw on, are those that noise is drawn for.
+TEST(Catalogue, TheStandardMeasuresComeFirstAndThoseUnderNoiseLast) {
+  std::size_t i = 0;
+  for (const Measure m : all_measures()) {
+    EXPECT_EQ(static_cast<std::size_t>(m), i);
+    EXPECT_EQ(is_standard(m), i < 37) << to_string(m);
+    if (i < 37) {
+      EXPECT_EQ(standard_measures()[i], m);
+    }
+    const std::string_view name = to_string(m);
+    const bool noisy = name.starts_with("noisy_") || name.starts_with("spread_") || name.ends_with("sigma_ratio");
+    EXPECT_EQ(is_noisy(m), noisy) << name;
+    EXPECT_EQ(noisy, i >= 93) << name;
+    if (noisy) {
+      EXPECT_EQ(noisy_measures()[i - 93], m);
+    }
+    ++i;
+  }
+  EXPECT_EQ(i, 128U);
+  EXPECT_EQ(standard_measures().back(), Measure::noise_gain);
+  EXPECT_EQ(noisy_measures().size(), 35U);
+}
+
+TEST(MeasureRow, HoldsEveryMeasureInAPlaceOfItsOwn) {
+  MeasureRow row;
+  for (const Measure m : all_measures()) row[m] = static_cast<double>(static_cast<int>(m));
+  const MeasureRow copy = row;
+  for (const Measure m : all_measures()) EXPECT_EQ(copy[m], static_cast<double>(static_cast<int>(m)));
+  row.clear();
+  for (const Measure m : all_measures()) EXPECT_TRUE(std::isnan(row[m]));
+}
+
+TEST(MeasureRow, AFurtherMeasureLeavesTheOthersNaN) {
+  for (const Measure one : {Measure::TV3_yw, Measure::expected_sigma_ratio}) {
+    MeasureRow row;
+    row[one] = 2;
+    const MeasureRow& read = row;
+    for (const Measure m : all_measures()) EXPECT_EQ(std::isnan(read[m]), m != one) << to_string(m);
+  }
+}
+
 TEST(MeasureRow, StartsAsNaN) {
   MeasureRow row;
   for (const Measure m : all_measures()) EXPECT_TRUE(std::isnan(row[m]));

@@ -70,6 +70,10 @@ class TwoThreads : public ::testing::Test {
       for (const Measure measure : grid.measures)
         source.at(measure, i) = random() % 50 == 0 ? kNaN : static_cast<double>(random() % 1'000'000);
     }
+    for (std::uint64_t i = 0; i < setting_count(grid); i += 4000) {  // both threads have some of the first tau_i
+      source.status(i) = Status::settled;
+      source.at(Measure::TV2_uw, i) = source.at(Measure::IAE_d, i) = 2;
+    }
     source.know_summaries(false);
     return source;
   }
