@@ -22,9 +22,9 @@ class ShapeMeter;
 
 class ExtremeQueue {
  public:
-  /// `start`: f' at the panel's start, or where it is 0 there, at its end.
+  /// `start`: f' at the panel's start, or where it is 0 there, at its end. `late`: on the last dead time.
   template <int degree>
-  void push(ShapeMeter& meter, unsigned lanes, const Signal& signal, double half, Lanes start) {
+  void push(ShapeMeter& meter, unsigned lanes, bool late, const Signal& signal, double half, Lanes start) {
     is_smooth_ = degree == kSmoothDegree && (is_smooth_ || size_ == 0);
     slope_.push<degree>(signal.slope, lanes, size_);
     mean_.push(signal.mean, lanes, size_);
@@ -32,6 +32,7 @@ class ExtremeQueue {
     half_.push_all(half, size_);
     for (unsigned left = lanes; left != 0; left &= left - 1, ++size_) {
       meter_[size_] = &meter;
+      late_[size_] = late;
       lane_[size_] = __builtin_ctz(left);
     }
     if (size_ >= kLanes) search(kLanes);
@@ -57,6 +58,7 @@ class ExtremeQueue {
   WaitingRow mean_, start_, half_;
   ShapeMeter* meter_[2 * kLanes];
   int lane_[2 * kLanes];
+  bool late_[2 * kLanes];
   int size_ = 0;
   bool is_smooth_ = false;            ///< all that waits has degree kSmoothDegree
   unsigned falling_ = 0;              ///< of the slots in search, the direction so far

@@ -184,7 +184,7 @@ class Run {
 
   template <int degree>
   __attribute__((noinline)) void watch(int k, int p) {
-    if (!kInputJumps && k >= 2 && k + 1 < span_.late_from && !looks(k)) return watch_inside<degree>(k, p);
+    if (!kInputJumps && k >= 2 && k + 1 < span_.late_from) return watch_inside<degree>(k, p);
     chain_.template complete_input<degree>(panels_[p], outputs_[p]);
     watch_output<degree>(k + 1, p, looks(k));
     if (both_) {
@@ -274,7 +274,9 @@ class Run {
 
   /// Once layers have faded the ends of series get smaller from one dead time to the next: then they are watched where the
   /// degree falls, and where it is asked which lanes are at rest.
-  bool watches_ends(int k) const { return k < 8 || k <= pack_.layered_intervals || k == pack_.smooth_from; }
+  bool watches_ends(int k) const {
+    return k < 8 || k <= pack_.layered_intervals || k == pack_.smooth_from || looks(k);
+  }
 
   /// A panel inside the response, where no meter does anything but watch.
   template <int degree>
@@ -292,9 +294,29 @@ class Run {
       chain_.template complete_input<degree>(panels_[p], outputs_[p]);
       m.u.take_in(u_seen, u, half, on);
     }
-    if (m.y.goes_on(y_seen, on) & (e_open == 0)) return;
-    m.y.take_in(y_seen, y, half, on);
-    if (e_open != 0) m.e.template look_at<degree>(e_open, e, middle + 1, half);
+    if (!(m.y.goes_on(y_seen, on) & (e_open == 0))) {
+      m.y.take_in(y_seen, y, half, on);
+      if (e_open != 0) m.e.template look_at<degree>(e_open, e, middle + 1, half);
+    }
+    if (looks(k)) look_for_rest<degree>(p);
+  }
+
+  /// Lanes leave `quiet_` in which a signal moves on this panel. Most do by the mean alone of the first.
+  template <int degree>
+  __attribute__((noinline)) void look_for_rest(int p) {
+    ShapeMeter* const meters[] = {&own().y, &own().u, &w_.y, &w_.u};
+    const Signal signals[] = {output_signal(p), input_signal(p), derived_output_signal(), derived_input_signal()};
+    const int count = both_ ? 4 : 2;
+    for (int i = 0; i < count; ++i) {
+      meters[i]->see_size(signals[i], active_);
+      quiet_ = quiet_ & meters[i]->may_be_quiet(signals[i], kQuiet);
+    }
+    if (!any(quiet_)) return;
+    chain_.template complete_input<degree>(panels_[p], outputs_[p]);
+    for (int i = 0; i < count; ++i) {
+      quiet_ = quiet_ & meters[i]->is_quiet(signals[i], kQuiet);
+      if (p + 1 == panel_count_) meters[i]->pass(signals[i].end(), active_);
+    }
   }
 
   template <int degree>

@@ -29,7 +29,7 @@ class ShapeMeter {
     queue_ = &queue;
     rest_ = at_rest;
     scale_ = scale;
-    last_ = variation_ = largest_ = passed_ = late_ = tail_ = smooth_tail_ = mean_ = Lanes(0.0);
+    last_ = variation_ = largest_ = passed_ = end_ = late_ = tail_ = smooth_tail_ = mean_ = Lanes(0.0);
     furthest_ = shape1_ = shape2_ = abs(at_rest);
     above_ = below_ = Lanes(-1e300);
   }
@@ -58,6 +58,8 @@ class ShapeMeter {
   static Sight see(const Signal& s, Mask active) {
     return {bits(active & (abs(s.slope[0]) > s.slope_rest)), negative_bits(s.slope[0])};
   }
+
+  void see_size(const Signal& s, Mask active) { mean_ = select(active, max(mean_, abs(s.mean)), mean_); }
 
   /// Where a panel's series ends.
   template <int degree>
@@ -92,25 +94,26 @@ class ShapeMeter {
     if (is_late) late_ = select(active, max(late_, abs(mul_add(scale_, x, -rest_))), late_);
   }
 
-  /// The last dead time begins.
-  void begin_late() {
-    evaluate();
-    is_late = true;
+  /// The horizon, or rest: the last value passed is the last point. In these lanes nothing follows.
+  void finish(Mask mask) {
+    end_ = select(mask, passed_, end_);
+    ended_ |= bits(mask);
   }
 
-  /// The horizon: the last value passed is the last point.
-  void finish(Mask mask) { turn(passed_, bits(mask)); }
-
-  /// All that was noted goes into the measures. Call it before reading them.
+  /// All that was noted goes into the measures. Call it once, before reading them.
   void evaluate() {
     queue_->flush();
     drain();
+    take(scale_ * end_, Mask::from(ended_));
   }
 
   /// Lanes in which the signal stays at rest on this panel.
   Mask is_quiet(const Signal& s, double part) const {
-    const Lanes size = abs(scale_), largest = max(abs(rest_), size * mean_);
-    return abs(mul_add(scale_, s.mean, -rest_)) + size * rest_bound(s.f, 1) < Lanes(part) * largest;
+    return abs(mul_add(scale_, s.mean, -rest_)) + abs(scale_) * rest_bound(s.f, 1) < Lanes(part) * largest_seen();
+  }
+  /// Those and some more, by the mean alone.
+  Mask may_be_quiet(const Signal& s, double part) const {
+    return abs(mul_add(scale_, s.mean, -rest_)) < Lanes(part) * largest_seen();
   }
 
   Lanes variation() const { return variation_; }
@@ -124,8 +127,9 @@ class ShapeMeter {
   Lanes deviation1() const { return deviation(shape1_); }
   Lanes deviation2() const { return deviation(shape2_); }
 
-  /// A turning point of one lane. REQUIRES: those before it have been noted.
-  void note(int lane, double x) {
+  /// A turning point of one lane. `late`: of the last dead time. REQUIRES: those before it have been noted.
+  void note(int lane, double x, bool late) {
+    if (late) note_late(lane, x);
     turns_[count_[lane]][lane] = x;
     if (++count_[lane] == kMostTurns) drain();
   }
@@ -141,8 +145,14 @@ class ShapeMeter {
     if (lanes & waiting_) queue_->flush();
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = __builtin_ctz(lanes);
-      note(lane, lane_of(x, lane));
+      note(lane, lane_of(x, lane), is_late);
     }
+  }
+
+  void note_late(int lane, double x) {
+    const double to_rest = __builtin_fabs(lane_of(scale_, lane) * x - lane_of(rest_, lane));
+    double& late = lane_of(late_, lane);
+    late = to_rest > late ? to_rest : late;
   }
 
   /// From the panel's start f falls in the lanes of `falls`, and rises in the others of `lanes`.
@@ -152,8 +162,6 @@ class ShapeMeter {
     falling_ = (falling_ & ~lanes) | (falls & lanes);
     known_ |= lanes;
   }
-
-  void see_size(const Signal& s, Mask active) { mean_ = select(active, max(mean_, abs(s.mean)), mean_); }
 
   __attribute__((noinline)) void watch_closely(const Signal& s, double half, unsigned on, unsigned sure) {
     see_size(s, Mask::from(on & ~sure));
@@ -169,8 +177,8 @@ class ShapeMeter {
     falling_ = (falling_ & ~directed) | (negative_bits(end) & directed);
     if (unsure == 0) return;
     waiting_ |= unsure;
-    is_smooth_ ? queue_->push<kSmoothDegree>(*this, unsure, s, half, start)
-               : queue_->push<kDegree>(*this, unsure, s, half, start);
+    is_smooth_ ? queue_->push<kSmoothDegree>(*this, unsure, is_late, s, half, start)
+               : queue_->push<kDegree>(*this, unsure, is_late, s, half, start);
   }
 
   void drain() {
@@ -191,7 +199,6 @@ class ShapeMeter {
     const Mask is_above = mask & (x > rest_), is_below = mask & (x < rest_);
     const Lanes to_rest = abs(x - rest_), first = abs(x);
     furthest_ = select(mask, max(furthest_, to_rest), furthest_);
-    if (is_late) late_ = select(mask, max(late_, to_rest), late_);
     const Lanes second = select(is_above, below_ + x, above_ - x);
     const Lanes one = first + to_rest, two = max(one, second + to_rest);
     const Mask pulse = is_above | is_below;
@@ -201,6 +208,7 @@ class ShapeMeter {
     below_ = select(is_below, max(below_, first - x), below_);
   }
 
+  Lanes largest_seen() const { return max(abs(rest_), abs(scale_) * mean_); }
   Lanes part(Lanes tail) const { return abs(scale_) * tail / largest_; }
   Lanes deviation(Lanes shape) const { return max(Lanes(0.0), variation_ + abs(rest_ - last_) - shape); }
 
@@ -208,11 +216,13 @@ class ShapeMeter {
   Lanes scale_;  ///< x/f
   // Of f:
   Lanes passed_;              ///< value at the end of the last panel passed
+  Lanes end_;                 ///< last value, of lanes that have ended
   Lanes mean_;                ///< largest mean of a panel, of those where the signal may turn and of some others
   Lanes tail_, smooth_tail_;  ///< largest last coefficients: of the degree in use, of the one before
   unsigned falling_ = 0;      ///< direction since the last turning point, a bit a lane
   unsigned known_ = 0;        ///< lanes that have a direction
   unsigned waiting_ = 0;      ///< lanes with panels in the queue
+  unsigned ended_ = 0;        ///< lanes in which nothing follows
   // Of x:
   Lanes late_;                 ///< largest |x - x(inf)| over the last dead time
   Lanes last_;                 ///< value at the last turning point
@@ -229,7 +239,7 @@ class ShapeMeter {
 inline void ExtremeQueue::report(int slots) {
   for (int slot = 0; slot < slots; ++slot) {
     meter_[slot]->no_longer_waits(lane_[slot]);
-    for (int i = 0; i < count_[slot]; ++i) meter_[slot]->note(lane_[slot], found_[i][slot]);
+    for (int i = 0; i < count_[slot]; ++i) meter_[slot]->note(lane_[slot], found_[i][slot], late_[slot]);
     count_[slot] = 0;
   }
   size_ -= slots;
@@ -237,7 +247,7 @@ inline void ExtremeQueue::report(int slots) {
   slope_.forget_first();
   mean_.forget_first(), start_.forget_first(), half_.forget_first();
   for (int i = 0; i < size_; ++i) {
-    meter_[i] = meter_[i + slots], lane_[i] = lane_[i + slots];
+    meter_[i] = meter_[i + slots], lane_[i] = lane_[i + slots], late_[i] = late_[i + slots];
     meter_[i]->waits(lane_[i]);
   }
 }

@@ -73,7 +73,7 @@ inline void watch_cut(ShapeMeter& meter, const Signal& s, const Place& at, Mask 
 template <int degree>
 __attribute__((noinline)) void watch_signal(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump,
                                             Mask active, Mask& quiet) {
-  if (at.late && !meter.is_late) meter.begin_late();
+  if (at.late) meter.is_late = true;
   if (at.is_cut()) {
     watch_cut(meter, s, at, active);
   } else {
