@@ -178,6 +178,9 @@ class Chain<kernel::PlantKind::cascade, filtered> : public DerivedSources {
   }
 
   template <int degree>
+  void run_ahead(const Panel&, const Derivatives&) {}
+  void forget_ahead() {}
+  template <int degree>
   void complete_sum(const Panel&) {}
   template <int degree>
   void complete_input(const Panel&, Output&) {}

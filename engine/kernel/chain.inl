@@ -84,7 +84,7 @@ class Chain {
 
   /// The first panel on which h is not 0: h may jump at its start.
   void enter(const Derivatives& h) {
-    if (filtered) filter_.enter(h);
+    if (filtered) filter_.enter(h), is_ahead_ = false;
   }
 
   /// From now on series end at `degree`.
@@ -104,6 +104,17 @@ class Chain {
     }
     if constexpr (kLag) step_lag<degree>(panel, z);
   }
+
+  /// The next panel's elimination, a chain of operations that each wait for the one before: while this panel is watched there
+  /// is time for it. In vain where `forget_ahead` follows.
+  template <int degree>
+  void run_ahead(const Panel& panel, const Derivatives& h) {
+    if (!filtered || filter_.order() != 1) return;
+    filter_.template eliminate<degree>(panel.filter, h, eliminated_);
+    is_ahead_ = true;
+  }
+  /// The next panel is another one than was thought.
+  void forget_ahead() { is_ahead_ = false; }
 
   /// All coefficients of int v, of which the pass may have left out those in the middle.
   template <int degree>
@@ -150,7 +161,8 @@ class Chain {
   void run_filtered(const Panel& panel, Derivatives h, const Series& h1, Output& z) {
     h = filter_.template all_but_last<degree>(panel.filter, panel.half, h);
     Series& solved = kLag ? v1 : level_ == 1 ? v2 : level_ == 2 ? v3 : v4;
-    filter_.template eliminate<degree>(panel.filter, h, solved);
+    if (!is_ahead_) filter_.template eliminate<degree>(panel.filter, h, eliminated_);
+    is_ahead_ = false;
     if (sparing_) {
       pass<degree, kLag ? Mode::full : Mode::sparing>(panel, h, h1, z);
     } else if (kLag || extra_ == 0) {
@@ -167,7 +179,7 @@ class Chain {
   template <int degree>
   void find_higher(const Panel& panel, const Derivatives& h, Series& solved) {
     Lanes above = 0.0;
-    for (int k = degree; k >= 0; --k) solved[k] = above = panel.filter.substitute(solved, k, above);
+    for (int k = degree; k >= 0; --k) solved[k] = above = panel.filter.substitute(eliminated_, k, above);
     if (level_ == 1) {
       filter_.template set_above<degree>(v3, *h.at[2], v2);
       if (extra_ > 1) filter_.template set_above<degree>(v4, *h.at[3], v3);
@@ -182,15 +194,15 @@ class Chain {
     Lanes v, v1, v2, slope;
   };
 
-  /// `known`: v'' has been found; else v2, or v1 of a lag, holds what elimination left.
+  /// `known`: v'' has been found; else `eliminated_` holds what elimination left of it, or of v' of a lag.
   template <bool known>
   Filtered filtered_at(int k, const Panel& panel, const Derivatives& h, const Series& h1, const Filtered& above,
                        const LagFormula& lag) {
     if constexpr (filtered && kLag) {
-      const Lanes slope = panel.filter.substitute(v1, k, above.v1);
+      const Lanes slope = panel.filter.substitute(eliminated_, k, above.v1);
       return {lag.below((*h.at[0])[k], slope), slope, lag.above((*h.at[1])[k], slope), slope};
     } else if constexpr (filtered) {
-      const Lanes w = known ? v2[k] : panel.filter.substitute(v2, k, above.v2);
+      const Lanes w = known ? v2[k] : panel.filter.substitute(eliminated_, k, above.v2);
       const Lanes slope = lag.below((*h.at[1])[k], w);
       return {lag.below((*h.at[0])[k], slope), slope, w, slope};
     }
@@ -323,6 +335,8 @@ class Chain {
   Lanes tau_1_, plant_rate_;
   Gains gains_;
   bool sparing_ = false;
+  Series eliminated_;
+  bool is_ahead_ = false;  ///< it is of the next panel
   Lanes integral_, z_, z1_;
 };
 

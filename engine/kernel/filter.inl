@@ -67,6 +67,7 @@ class Filter {
   }
   void advance_last(double half_length, Lanes mean_slope) { advance(order_ - 1, half_length, mean_slope); }
 
+  int order() const { return order_; }
   const LagFormula& formula() const { return formula_; }
 
   template <int degree>

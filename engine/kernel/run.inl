@@ -129,6 +129,7 @@ class Run {
     const int derivatives = (filtered ? 1 : 2) + (both_ ? derived_.extra(plant) : 0);
     Flattening(derivatives).flatten(pack_.mesh, outputs_);
     set_mesh({0, pack_.mesh.halved});
+    chain_.forget_ahead();
   }
 
   /// Nothing fast is left: series end at a lower degree.
@@ -180,6 +181,9 @@ class Run {
     if (!kOwnInput) u[0] += chain_.load;
     if (both_ && !derived_.is_scaled()) derive_output();
     if (both_ && (plant == PlantKind::fotd || !derived_.is_scaled())) derive_input<degree>();
+    if (!disturbed) return;
+    const int next = p + 1 < panel_count_ ? p + 1 : 0;
+    chain_.template run_ahead<degree>(panels_[next], measured(outputs_[next]));
   }
 
   template <int degree>
@@ -199,7 +203,7 @@ class Run {
   template <int degree>
   void run_chain(const Panel& panel, int p, Output& z, bool begins) {
     if constexpr (disturbed) {
-      const Derivatives h{{&z.y, &z.y1, &z.y2, &z.y3}};
+      const Derivatives h = measured(z);
       if (begins) chain_.enter(h);
       chain_.template run<degree>(panel, h, z.y1, z);
     } else {
@@ -209,6 +213,9 @@ class Run {
       chain_.template run<degree>(panel, h, error1_, z);
     }
   }
+
+  /// The controller's h in a run that d drives.
+  static Derivatives measured(const Output& z) { return {{&z.y, &z.y1, &z.y2, &z.y3}}; }
 
   /// h = y - r and h' = y' - r'.
   void subtract_setpoint(const Panel& panel, int p, const Output& z) {
