@@ -40,11 +40,10 @@ void run_engine(const Case& of, std::span<const Setting> settings, MeasureColumn
     const std::size_t count = std::min(kSlice, settings.size() - first);
     measure_settings(Method::kernel, of.grid.family, of.grid.horizon, {}, settings.subspan(first, count),
                      std::span(measured).first(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      if (method_of(measured[i]) != Method::kernel)
-        throw std::runtime_error(of.name + ": left to the reference method");
-      columns.set(first + i, measured[i].status, measured[i].measures);
-    }
+    const auto found = std::span<const SettingMeasured>(measured).first(count);
+    for (const SettingMeasured& m : found)
+      if (method_of(m) != Method::kernel) throw std::runtime_error(of.name + ": left to the reference method");
+    columns.set_all(first, found);
   }
 }
 

@@ -30,6 +30,10 @@ class MarginRow {
   double& operator[](Measure measure) { return values_[place(measure)]; }
   double operator[](Measure measure) const { return values_[place(measure)]; }
 
+  void copy_to(MeasureRow& row) const {
+    for (std::size_t i = 0; i < values_.size(); ++i) row[kMarginMeasures[i]] = values_[i];
+  }
+
  private:
   static constexpr std::size_t place(Measure measure) {
     std::size_t i = 0;

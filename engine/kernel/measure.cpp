@@ -48,8 +48,7 @@ void measure(const Implementation& implementation, const LoopFamily& family, Hor
   else
     measure_stable(implementation, family, horizon, noise, settings, margins, results);
   for (std::size_t i = 0; i < margins.size(); ++i)
-    if (margins[i].stable)
-      for (const Measure m : kMarginMeasures) results[i].measures[m] = margins[i].measures[m];
+    if (margins[i].stable) margins[i].measures.copy_to(results[i].measures);
 }
 
 }  // namespace portrait::kernel

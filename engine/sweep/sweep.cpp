@@ -64,10 +64,9 @@ class Worker {
     const auto settings = std::span(slice.tile->settings).subspan(slice.first, slice.count);
     measured_.resize(slice.count);
     measure_settings(job_.method, job_.family, job_.horizon, extras_, settings, measured_);
-    for (std::size_t i = 0; i < slice.count; ++i) {
-      slice.tile->columns.set(slice.first + i, measured_[i].status, measured_[i].measures);
-      if (method_of(measured_[i]) != job_.method) ++left_over_;
-    }
+    slice.tile->columns.set_all(slice.first, std::span<const SettingMeasured>(measured_));
+    for (const SettingMeasured& m : measured_)
+      if (method_of(m) != job_.method) ++left_over_;
   }
 
   void report() const {
