@@ -94,11 +94,22 @@ inline Lanes rest_bound(const Series& f, int from) {
   return a + b;
 }
 
+/// 1/(2k + 1)
+struct OddReciprocals {
+  double odd[kTerms + 1];
+};
+constexpr OddReciprocals make_odd_reciprocals() {
+  OddReciprocals t{};
+  for (int k = 0; k <= kTerms; ++k) t.odd[k] = 1.0 / (2 * k + 1);
+  return t;
+}
+inline constexpr OddReciprocals kOneOver = make_odd_reciprocals();
+
 /// h/(2 (2k + 1)) for a panel h long: what integration takes of every term, int P_k = (P_{k+1} - P_{k-1})/(2k + 1).
 struct IntegralWeights {
   double of[kTerms];
   void prepare(double half_length) {
-    for (int k = 0; k < kTerms; ++k) of[k] = half_length / (2 * k + 1);
+    for (int k = 0; k < kTerms; ++k) of[k] = half_length * kOneOver.odd[k];
   }
 };
 
@@ -262,15 +273,19 @@ struct Lag {
   void prepare(Lanes tau, double half_length) {
     const Lanes scale = Lanes(1.0) / (tau + Lanes(half_length)), diagonal = tau * scale;
     const Lanes coupling = (Lanes(half_length) * scale) * (Lanes(half_length) * scale);
+    static_assert(kDegree % 2 == 0);
     Lanes below = 1.0, here = 1.0;  // D_{j-2}, D_{j-1}
     inverse[0] = scale;
-    for (int j = 1; j < kTerms; ++j) {
-      const Lanes next = mul_add(diagonal, here, coupling * Lanes(1.0 / (4.0 * j * j - 1)) * below);
-      inverse[j] = scale * (here / next);
-      below = here, here = next;
+    for (int j = 1; j < kTerms; j += 2) {
+      const Lanes next = mul_add(diagonal, here, coupling * Lanes(kOneOver.odd[j] * kOneOver.odd[j - 1]) * below);
+      const Lanes last = mul_add(diagonal, next, coupling * Lanes(kOneOver.odd[j + 1] * kOneOver.odd[j]) * here);
+      const Lanes both = scale / (next * last);  // of two quotients one division
+      inverse[j] = (here * last) * both;
+      inverse[j + 1] = (next * next) * both;
+      below = next, here = last;
     }
-    for (int j = 0; j < kTerms; ++j) upper[j] = Lanes(half_length / (2 * j + 3)) * inverse[j];
-    for (int j = 1; j < kTerms; ++j) lower[j] = Lanes(half_length / (2 * j - 1)) * inverse[j - 1];
+    for (int j = 0; j < kTerms; ++j) upper[j] = Lanes(half_length * kOneOver.odd[j + 1]) * inverse[j];
+    for (int j = 1; j < kTerms; ++j) lower[j] = Lanes(half_length * kOneOver.odd[j - 1]) * inverse[j - 1];
   }
 
   /// Forward elimination for the input e from v(start).

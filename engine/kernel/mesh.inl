@@ -11,12 +11,12 @@ struct Panel {
   IntegralWeights weights;
   Lag filter, plant;
 
-  /// Another panel of the same length has the same solvers.
-  void solve_as(const Panel& other) {
+  /// Another panel of the same length has the same solvers, of those that are in use.
+  void solve_as(const Panel& other, bool with_filter, bool with_plant) {
     half = other.half;
     weights = other.weights;
-    filter = other.filter;
-    plant = other.plant;
+    if (with_filter) filter = other.filter;
+    if (with_plant) plant = other.plant;
   }
 };
 

@@ -109,7 +109,7 @@ class Run {
       panel.start = start;
       if (!disturbed) setpoint_.prepare(prefilters_[p], 0.5 * lengths[p]);
       if (p > 0 && lengths[p] == lengths[p - 1])
-        panel.solve_as(panels_[p - 1]);
+        panel.solve_as(panels_[p - 1], filtered, kOwnInput);
       else
         prepare(panel, 0.5 * lengths[p]);
     }
