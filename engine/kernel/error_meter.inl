@@ -51,16 +51,16 @@ class ErrorMeter {
  public:
   void begin(Lanes offset, Lanes scale, SignQueue& queue) {
     queue_ = &queue;
-    offset_ = offset, scale_ = scale;
+    offset_ = offset, scale_ = scale, size_ = abs(scale), square_ = scale * scale;
     iae_ = ise_ = itae_ = itse_ = iae_of_queue_ = itae_of_queue_ = Lanes(0.0);
   }
 
   /// One panel of half length `half` around the time `middle`. Gives the lanes in which e may change its sign: these are
   /// still to be looked at.
-  unsigned see(const Error& e, double middle, double half, Mask active) {
+  __attribute__((always_inline)) unsigned see(const Error& e, double middle, double half, Mask active) {
     const Lanes e0 = mul_add(scale_, e.f[0], offset_), e1 = scale_ * e.f[1];
     add_squares(e, e0, e1, middle, half, active);
-    const Lanes first = abs(e0), rest = abs(scale_) * e.rest;
+    const Lanes first = abs(e0), rest = size_ * e.rest;
     const Mask sure = active & (first > rest);
     const Lanes length = 2 * half, moment = mul_add(Lanes(middle), e0, Lanes(half * (1.0 / 3)) * e1);
     iae_ = select(sure, mul_add(length, first, iae_), iae_);
@@ -97,16 +97,15 @@ class ErrorMeter {
 
  private:
   void add_squares(const Error& e, Lanes e0, Lanes e1, double middle, double half, Mask active) {
-    const Lanes factor = scale_ * scale_;
-    const Lanes squares = mul_add(factor, e.sums.squares, e0 * e0);
-    const Lanes moments = mul_add(factor, e.sums.moments, Lanes(2.0 / 3) * e0 * e1);
+    const Lanes squares = mul_add(square_, e.sums.squares, e0 * e0);
+    const Lanes moments = mul_add(square_, e.sums.moments, Lanes(2.0 / 3) * e0 * e1);
     ise_ = select(active, mul_add(Lanes(2 * half), squares, ise_), ise_);
     const Lanes moment = mul_add(Lanes(middle), squares, Lanes(half) * moments);
     itse_ = select(active, mul_add(Lanes(2 * half), moment, itse_), itse_);
   }
 
   SignQueue* queue_ = nullptr;
-  Lanes offset_, scale_;
+  Lanes offset_, scale_, size_, square_;  ///< size_, square_: of scale_
   Lanes iae_, ise_, itae_, itse_;
   Lanes iae_of_queue_, itae_of_queue_;
 };
@@ -169,7 +168,7 @@ struct SignQueue::Visitor {
 template <int degree>
 inline void SignQueue::search_as(int slots) {
   Series e;
-  e_.get_first(e);
+  e_.get_first<degree>(e);
   iae_ = itae_ = Lanes(0.0);
   Visitor<degree> visitor{*this};
   search_zeros<degree>(e, {middle_.first(), half_.first()}, Mask::from((1u << slots) - 1), kHalvings, visitor);
@@ -177,7 +176,7 @@ inline void SignQueue::search_as(int slots) {
     meter_[slot]->add(lane_[slot], lane_of(iae_, slot), lane_of(itae_, slot));
   size_ -= slots;
   if (size_ == 0) return;
-  e_.forget_first();
+  e_.forget_first<kDegree>();
   middle_.forget_first(), half_.forget_first();
   for (int i = 0; i < size_; ++i) meter_[i] = meter_[i + slots], lane_[i] = lane_[i + slots];
 }

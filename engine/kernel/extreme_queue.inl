@@ -104,7 +104,8 @@ struct ExtremeQueue::Visitor {
 template <int degree>
 inline void ExtremeQueue::search_as(int slots) {
   Series slope, f;
-  slope_.get_first(slope);
+  slope_.get_first<degree>(slope);
+  if (degree < kDegree) set_zero_above(slope, degree);
   set_integral(f, slope, half_.first(), mean_.first());
   falling_ = negative_bits(start_.first());
   const Powers<Visitor<degree>::kSignalDegree> powers(f);

@@ -48,8 +48,10 @@ class Flattening {
   void flatten(const kernel::Mesh& mesh, Output* outputs) {
     const int parts = 1 << mesh.halved;
     int panels = panels_of(mesh);
-    for (int g = 0; g < mesh.graded; ++g, panels -= parts) {
-      for (int i = 0; i < parts; ++i) join(outputs[i], outputs[2 * i], outputs[2 * i + 1]);
+    double half = 0.5 / parts;  // of the panels that come out
+    for (int g = 1; g < mesh.graded; ++g) half *= 0.5;
+    for (int g = 0; g < mesh.graded; ++g, panels -= parts, half *= 2) {
+      for (int i = 0; i < parts; ++i) join(outputs[i], outputs[2 * i], outputs[2 * i + 1], half);
       for (int i = parts; i < panels - parts; ++i) move(outputs[i], outputs[i + parts]);
     }
     for (int i = 0; i < parts; ++i) outputs[i].sum_up();
@@ -61,8 +63,14 @@ class Flattening {
     return *rows[i];
   }
 
-  void join(Output& to, Output& left, Output& right) {
-    for (int i = 0; i < rows_; ++i) set_joined(row(to, i), row(left, i), row(right, i));
+  /// The highest derivative is joined, the others are its integrals.
+  void join(Output& to, Output& left, Output& right, double half) {
+    int i = rows_ - 1;
+    set_joined(row(to, i), row(left, i), row(right, i));
+    for (--i; i >= 0; --i) {
+      const Lanes mean = Lanes(0.5) * (row(left, i)[0] + row(right, i)[0]);
+      set_integral(row(to, i), row(to, i + 1), half, mean);
+    }
   }
 
   void move(Output& to, Output& from) {

@@ -168,7 +168,7 @@ class ShapeMeter {
     // What moves less than rounding has no direction.
     const Lanes least = Lanes(kNegligible / half) * mean_;
     const unsigned moves = on & bits(abs(s.slope[0]) + s.slope_rest > least);
-    const Ends ends = ends_of(s.slope);
+    const Ends ends = is_smooth_ ? ends_of<kSmoothDegree>(s.slope) : ends_of(s.slope);
     // Where f' is 0 at one end its direction is that of the other.
     const Mask starts = abs(ends.left) > Lanes(0.0), stops = abs(ends.right) > Lanes(0.0);
     const Lanes start = select(starts, ends.left, ends.right), end = select(stops, ends.right, ends.left);
@@ -244,7 +244,7 @@ inline void ExtremeQueue::report(int slots) {
   }
   size_ -= slots;
   if (size_ == 0) return;
-  slope_.forget_first();
+  slope_.forget_first<kDegree>();
   mean_.forget_first(), start_.forget_first(), half_.forget_first();
   for (int i = 0; i < size_; ++i) {
     meter_[i] = meter_[i + slots], lane_[i] = lane_[i + slots], late_[i] = late_[i + slots];

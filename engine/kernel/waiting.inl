@@ -22,23 +22,31 @@ class WaitingSeries {
   template <int degree>
   void push(const Series& f, unsigned lanes, int size) {
     for (int k = 0; k <= degree; ++k) rows_[k].push(f[k], lanes, size);
-    for (int k = degree + 1; k < kTerms; ++k) rows_[k].push_all(0.0, size);
+    set_zero_above(degree, size);
   }
   /// offset + scale f
   template <int degree>
   void push(const Series& f, Lanes scale, Lanes offset, unsigned lanes, int size) {
     rows_[0].push(mul_add(scale, f[0], offset), lanes, size);
     for (int k = 1; k <= degree; ++k) rows_[k].push(scale * f[k], lanes, size);
-    for (int k = degree + 1; k < kTerms; ++k) rows_[k].push_all(0.0, size);
+    set_zero_above(degree, size);
   }
+  /// Of series that end at `degree` or before.
+  template <int degree>
   void get_first(Series& f) const {
-    for (int k = 0; k < kTerms; ++k) f[k] = rows_[k].first();
+    for (int k = 0; k <= degree; ++k) f[k] = rows_[k].first();
   }
+  template <int degree>
   void forget_first() {
-    for (WaitingRow& row : rows_) row.forget_first();
+    for (int k = 0; k <= degree; ++k) rows_[k].forget_first();
   }
 
  private:
+  /// What waits alone, of the lower degree, is read up to that.
+  void set_zero_above(int degree, int size) {
+    for (int k = degree + 1; k < kTerms; ++k) rows_[k].push_all(0.0, size);
+  }
+
   WaitingRow rows_[kTerms];
 };
 
