@@ -54,7 +54,7 @@ TEST_P(EndsOfSeries, AreSeenWhereTheDegreeFalls) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllIsas, EndsOfSeries, ::testing::ValuesIn(available_implementations()),
-                         [](const auto& info) { return std::string(info.param->name); });
+                         [](const auto& one) { return std::string(one.param->name); });
 
 }  // namespace
 }  // namespace portrait::kernel
