@@ -20,11 +20,11 @@ using Complex = std::complex<Real>;
 // ---------------------------------------------------------------- the loop as it is written
 
 /// K_-1, K_0, K_1, ...
-template <typename Real>
-std::vector<Real> gains(const Loop& loop) {
+template <typename T>
+std::vector<T> gains(const Loop& loop) {
   const Setting& s = loop.setting;
   if (has_gains(loop.family)) return {s.gains.begin(), s.gains.begin() + loop.family.m + 2};
-  return {std::isfinite(s.tau_i) ? Real{s.kappa} / Real{s.tau_i} : 0, s.kappa, s.delta};
+  return {std::isfinite(s.tau_i) ? T{s.kappa} / T{s.tau_i} : 0, s.kappa, s.delta};
 }
 
 int lags(const Loop& loop) {
@@ -34,21 +34,19 @@ int lags(const Loop& loop) {
 Real lag(const Loop& loop) { return loop.family.plant == Plant::fotd ? loop.setting.tau_1 : loop.setting.tau_j; }
 
 /// L(j omega) = C Q P, factor by factor.
-template <typename Real>
+template <typename T>
 class OpenLoop {
-  using Complex = std::complex<Real>;
-
  public:
   explicit OpenLoop(const Loop& loop)
-      : gains_(gains<Real>(loop)),
+      : gains_(gains<T>(loop)),
         integrators_(integrators(loop.family.plant)),
         lags_(lags(loop)),
         n_(loop.family.n),
-        lag_(static_cast<Real>(lag(loop))),
-        tau_f_(static_cast<Real>(loop.setting.tau_f)) {}
+        lag_(static_cast<T>(lag(loop))),
+        tau_f_(static_cast<T>(loop.setting.tau_f)) {}
 
-  Complex operator()(Real omega) const {
-    Complex L = std::polar(Real{1}, -omega) * controller(omega);
+  std::complex<T> operator()(T omega) const {
+    std::complex<T> L = std::polar(T{1}, -omega) * controller(omega);
     for (int i = 0; i < integrators_; ++i) L = {L.imag() / omega, -L.real() / omega};
     for (int i = 0; i < lags_; ++i) L = behind_lag(L, lag_ * omega);
     for (int i = 0; i < n_; ++i) L = behind_lag(L, tau_f_ * omega);
@@ -57,24 +55,24 @@ class OpenLoop {
 
  private:
   /// K_-1/s + K_0 + K_1 s + ..., powers of s from -1 up: -j/omega, 1, j omega, -omega^2, ...
-  Complex controller(Real omega) const {
-    Real real = 0, imaginary = 0, power = 1 / omega;
+  std::complex<T> controller(T omega) const {
+    T real = 0, imaginary = 0, power = 1 / omega;
     for (std::size_t i = 0; i < gains_.size(); ++i, power *= omega) {
-      const Real term = (i % 4 == 0 || i % 4 == 3 ? -1 : 1) * gains_[i] * power;
+      const T term = (i % 4 == 0 || i % 4 == 3 ? -1 : 1) * gains_[i] * power;
       (i % 2 == 0 ? imaginary : real) += term;
     }
     return {real, imaginary};
   }
 
   /// x/(1 + j T omega)
-  static Complex behind_lag(Complex x, Real T_omega) {
-    const Real d = 1 + T_omega * T_omega;
+  static std::complex<T> behind_lag(std::complex<T> x, T T_omega) {
+    const T d = 1 + T_omega * T_omega;
     return {(x.real() + x.imag() * T_omega) / d, (x.imag() - x.real() * T_omega) / d};
   }
 
-  std::vector<Real> gains_;
+  std::vector<T> gains_;
   int integrators_, lags_, n_;
-  Real lag_, tau_f_;
+  T lag_, tau_f_;
 };
 
 // ---------------------------------------------------------------- responses
@@ -156,13 +154,13 @@ struct Sample {
   double squared;  ///< |L|^2
 };
 
-/// Steps of 2 % to 1e-3, where nothing turns; then of 0.4 %, at most 0.02 and from 60 on 0.06, up to where |L| has fallen below a
-/// tenth of its value at any phase crossover, or 1000.
+/// 2 % to 1e-3, where nothing turns; then 0.4 %, at most 0.02, and 0.06 from 60 on.
 double step_from(double omega, int fineness) {
   const double part = omega < 1e-3 ? 0.02 : 0.004, most = omega < 60 ? 0.02 : 0.06;
   return std::min(part * omega, most) / fineness;
 }
 
+/// Up to where |L| has fallen below a tenth of its value at any phase crossover, or 1000.
 std::vector<Sample> walk(const Loop& loop, int fineness) {
   const OpenLoop<double> at(loop);
   std::vector<Sample> samples;
@@ -178,10 +176,11 @@ std::vector<Sample> walk(const Loop& loop, int fineness) {
   return samples;
 }
 
-/// Where f, of different sign at both ends, is 0: false position, the value at an end that stays halved each time (Illinois).
+/// Where f, of different sign at both ends, is 0: false position, the value at an end that stays halved each time (Illinois). Where
+/// only double saw the signs differ, one end is as good as the zero.
 template <typename Function>
 Real zero_between(const Function& f, Real low, Real high) {
-  Real at_low = f(low), at_high = f(high), x = low;
+  Real at_low = f(low), at_high = f(high), x = std::abs(at_low) < std::abs(at_high) ? low : high;
   for (int i = 0; i < 70 && at_low * at_high < 0; ++i) {
     x = high - at_high * (high - low) / (at_high - at_low);
     const Real here = f(x);

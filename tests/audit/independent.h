@@ -1,7 +1,7 @@
 /// All measures of one loop by other means than the engine's: neither its kernel nor its reference.
 ///
 ///     responses   the method of steps on power series, in long double (tests/oracle/method_of_steps.h)
-///     margins     a walk along the frequency axis, C Q P evaluated as it is written, in long double
+///     margins     a walk along the frequency axis, C Q P evaluated as it is written; what it brackets located in long double
 ///     stability   the argument principle on a contour walked step by step (tests/engine/loop/root_count.h)
 ///
 /// accuracy  rounding of long double, but for what a raster misses: a pair of extremes closer than 1/256 of a piece, a pair of
