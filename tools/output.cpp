@@ -141,6 +141,13 @@ void print_message(const std::string& text) {
 
 std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
+std::vector<Measure> measures_of_one_run() {
+  std::vector<Measure> measures;
+  for (const Measure m : all_measures())
+    if (!is_noisy(m)) measures.push_back(m);
+  return measures;
+}
+
 std::string measures_table(const MeasureRow& row, const std::vector<Measure>& measures,
                            const std::string& unit_note) {
   const bool with_output = contains(measures, Measure::IAE_o);

@@ -36,6 +36,9 @@ void print_message(const std::string& text);
 /// Six significant digits: enough to read, not to compute with.
 std::string short_number(double value);
 
+/// All measures but those under noise, which a sweep keeps over several seeds.
+std::vector<Measure> measures_of_one_run();
+
 /// The measures of both steps side by side, with IAE, TV, ... as rows and Ms, Mt below.
 /// `unit_note` stands in the head: "normalised" or the units of a plant.
 std::string measures_table(const MeasureRow& row, const std::vector<Measure>& measures,

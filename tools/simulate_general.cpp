@@ -136,8 +136,7 @@ int simulate_general(const SimulateArguments& a) {
   measured.horizon *= inside.units.time;
   if (!a.trace.empty()) trace(a, inside, horizon, sizes);
 
-  const auto all = all_measures();
-  const std::vector<Measure> measures(all.begin(), all.end());
+  const std::vector<Measure> measures = measures_of_one_run();
   const Json noise = a.noise.empty() ? Json() : noise_report(a, inside, sizes);
   if (a.json) {
     Json json{{"settings", json_loop(loop)},

@@ -130,8 +130,7 @@ int simulate(const SimulateArguments& a) {
         "note: with n = 0 the prefilter \"full\" does not cancel the zeros of the setpoint response; \"pi\" does");
   const SettingMeasured measured = measure(a, loop, horizon);
   trace_if_asked(a, loop, horizon);
-  const auto all = all_measures();
-  const std::vector<Measure> measures(all.begin(), all.end());
+  const std::vector<Measure> measures = measures_of_one_run();
   if (a.json) {
     print_json({{"settings", json_settings(loop)},
                 {"measures", json_measures(measured.measures, measures)},

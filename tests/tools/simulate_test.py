@@ -30,6 +30,13 @@ class Simulate(ProgramTest):
         self.assertEqual(answer["settings"]["tau_i"], "inf")
         self.assertIsNone(answer["measures"]["IAE_d"])
 
+    def test_what_only_a_sweep_measures_is_not_listed(self):
+        for loop in (PPM47, ("--plant", "tf:34/13.5,54.25,55,1", "--pid", "standard:Kc=0.783428,Ti=5.345232")):
+            self.assertNotIn("noisy", self.run_program("simulate", *loop).out)
+            measures = self.run_program("simulate", *loop, "--json").json["measures"]
+            self.assertEqual([name for name in measures if "noisy" in name or "sigma" in name], [])
+            self.assertIn("TV8_uo", measures)
+
     def test_margins(self):
         measures = self.run_program("simulate", "--plant", "ipdt", "--kappa", "0.5", "--json").json["measures"]
         self.assertAlmostEqual(measures["GM"], math.pi, places=12)
