@@ -72,6 +72,14 @@ TEST(CrossSection, HoldsTheSettingsOfItsPlaneWhateverTheAxes) {
   }
 }
 
+TEST(CrossSection, ReadsWhatLiesTogetherAtOnce) {
+  const MemorySource source = portrait_of(1);
+  const CrossSection section(source, {}, Parameter::tau_i, Parameter::delta, {2, 0, 0});
+  section.values(parse_expression({"", "IAE_w"}));
+  EXPECT_EQ(source.longest_read(), 12U);  // 4 x 3 settings of one kappa
+  EXPECT_EQ(source.values_read(), 12U);
+}
+
 TEST(CrossSection, AdmissibleSettingsAreThoseOfTheQuery) {
   for (const unsigned seed : {1U, 2U, 3U})
     for (const bool include : {false, true}) {

@@ -108,10 +108,10 @@ TEST(PlantTrials, a_loop_that_has_not_settled_counts_when_asked_for) {
 TEST(PlantTrials, the_sampling_of_the_noise_gain_is_the_same_time_on_every_plant) {
   Grid sampled = ipdt();
   sampled.sampling = 0.02;  // 0.01 in real time
-  const RealPlant slow{Plant::ipdt, 1, 1, 0};
+  const RealPlant slow{Plant::ipdt, 1, 2, 0};
   const Setting setting = with_kappa(0.4);
   const Setting there = normalised(controller_for({sampled.family, setting}, box().nominal), slow, sampled.family);
-  const double expected = noise_gain({sampled.family, there}, 0.01) * scale(Measure::noise_gain, slow);
+  const double expected = noise_gain({sampled.family, there}, 0.005) * scale(Measure::noise_gain, slow);
   EXPECT_NEAR(values_of("noise_gain", {}, setting, slow, sampled).at(0), expected, 1e-12 * expected);
 }
 
@@ -131,6 +131,24 @@ TEST(PlantTrials, limits_are_those_of_a_stable_settled_loop) {
   EXPECT_EQ(report.left.at(0), report.Ms);
   EXPECT_EQ(report.right.at(0), 2);
   EXPECT_EQ(report.objective, report.measured.measures[Measure::IAE_d]);
+}
+
+TEST(PlantTrials, many_give_what_each_gives_alone) {
+  const PlantBox b = box();
+  const Grid grid = ipdt();
+  const Expression objective = parse_expression({"", "IAE_d"});
+  Conditions conditions;
+  conditions.where = {parse_constraint({"", "Ms <= 2"}), parse_constraint({"", "IAE_d >= 3"})};
+  const PlantTrials trials(grid, b, objective, conditions);
+  std::vector<PlantTrials::Trial> all;
+  for (const double kappa : {0.3, 0.4, 0.5})
+    for (const BoxPoint& corner : b.corners()) all.push_back({with_kappa(kappa), b.at(corner)});
+  const std::vector<double> together = trials.values(all, 1);
+  ASSERT_EQ(together.size(), all.size() * trials.functions());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::vector<double> alone = trials.values(std::span(&all[i], 1), 1);
+    for (std::size_t f = 0; f < alone.size(); ++f) EXPECT_EQ(together[i * trials.functions() + f], alone[f]);
+  }
 }
 
 }  // namespace
