@@ -73,11 +73,12 @@ inline void watch_cut(ShapeMeter& meter, const Signal& s, const Place& at, Mask 
 template <int degree>
 __attribute__((noinline)) void watch_signal(ShapeMeter& meter, const Signal& s, const Place& at, bool may_jump,
                                             Mask active, Mask& quiet) {
+  // What u jumps from as the last dead time begins is of the dead time before.
+  if (!at.is_cut() && (at.first_of_all || (at.first_of_interval && may_jump))) meter.enter(s.start(), active);
   if (at.late) meter.is_late = true;
   if (at.is_cut()) {
     watch_cut(meter, s, at, active);
   } else {
-    if (at.first_of_all || (at.first_of_interval && may_jump)) meter.enter(s.start(), active);
     if (at.first_of_interval && at.late) meter.pass(s.start(), active);
     meter.watch<degree>(s, at.half, active, at.course);
     if (at.late || at.last_of_all || (at.last_of_interval && (may_jump || at.look))) meter.pass(s.end(), active);

@@ -114,6 +114,21 @@ TEST_P(Responses, ASlowFilterOverALongTime) {
   EXPECT_LT(worst.error, 1e-8) << worst.where;
 }
 
+/// As the last dead time begins, u jumps from outside the band of what has settled into it.
+TEST_P(Responses, WhatUJumpsFromIsOfTheDeadTimeBefore) {
+  const Setting of_ipdt{.kappa = 0.781506810999974, .tau_i = 3.959013856355435, .delta = 0.8446961180821273};
+  const Setting of_fotd{
+      .kappa = 7.823587053846676, .tau_i = kInf, .delta = 6.232086602825467, .tau_1 = 8.598516950533606};
+  const std::pair<Loop, double> loops[] = {{{{Plant::ipdt, 0, Prefilter::full}, of_ipdt}, 29},
+                                           {{{Plant::fotd, 0, Prefilter::pi}, of_fotd}, 19}};
+  for (const auto& [loop, horizon] : loops) {
+    EXPECT_EQ(measure_one(*GetParam(), loop, Horizon::fixed(horizon)).status, Status::settled)
+        << simulate_command(loop);
+    EXPECT_EQ(reference::measure(loop, Horizon::fixed(horizon)).status, Status::settled) << simulate_command(loop);
+    EXPECT_EQ(measure_one(*GetParam(), loop, Horizon::fixed(horizon - 1)).status, Status::not_settled);
+  }
+}
+
 /// A setting's bits do not depend on what stands beside it.
 TEST_P(Responses, NeighboursDoNotMatter) {
   const kernel::Implementation& implementation = *GetParam();
