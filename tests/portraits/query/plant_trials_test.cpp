@@ -9,25 +9,12 @@
 #include "engine/loop/noise_gain.h"
 #include "engine/loop/real_plant.h"
 #include "portraits/query/measured.h"
+#include "tests/portraits/query/ipdt_over_kappa.h"
 
 namespace portrait {
 namespace {
 
-Grid ipdt() {
-  Grid grid;
-  grid.family = {Plant::ipdt, 1, Prefilter::full};
-  grid.horizon = Horizon::fixed(80);
-  grid.measures = {Measure::IAE_d, Measure::Ms, Measure::noise_gain};
-  grid.axes = {Axis::linear(Parameter::kappa, 0.2, 1, 9)};
-  grid.fixed = {{Parameter::tau_i, 6},
-                {Parameter::delta, 0.1},
-                {Parameter::tau_f, 0.1},
-                {Parameter::b, 0},
-                {Parameter::c, 0}};
-  return grid;
-}
-
-Setting with_kappa(double kappa) { return {.kappa = kappa, .tau_i = 6, .delta = 0.1, .tau_f = 0.1}; }
+Grid ipdt() { return ipdt_over_kappa(80, {Measure::IAE_d, Measure::Ms, Measure::noise_gain}); }
 PlantBox box() { return {{Plant::ipdt, 2, 0.5, 0}, {1.6, 2.4}, {0.4, 0.6}, {0, 0}}; }
 
 /// What one trial comes to, by function.

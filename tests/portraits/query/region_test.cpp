@@ -4,25 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/portraits/query/error_text.h"
+#include "tests/portraits/query/ipdt_over_kappa.h"
 
 namespace portrait {
 namespace {
 
-Grid ipdt(double horizon) {
-  Grid grid;
-  grid.family = {Plant::ipdt, 1, Prefilter::full};
-  grid.horizon = Horizon::fixed(horizon);
-  grid.measures = {Measure::IAE_d, Measure::Ms};
-  grid.axes = {Axis::linear(Parameter::kappa, 0.2, 1, 9)};
-  grid.fixed = {{Parameter::tau_i, 6},
-                {Parameter::delta, 0.1},
-                {Parameter::tau_f, 0.1},
-                {Parameter::b, 0},
-                {Parameter::c, 0}};
-  return grid;
-}
-
-Setting with_kappa(double kappa) { return {.kappa = kappa, .tau_i = 6, .delta = 0.1, .tau_f = 0.1}; }
+Grid ipdt(double horizon) { return ipdt_over_kappa(horizon, {Measure::IAE_d, Measure::Ms}); }
 
 Conditions conditions(const std::vector<std::string>& where, bool include_not_settled = false) {
   Conditions all;
