@@ -306,11 +306,16 @@ TEST(Query, a_price_finds_what_fails_by_less_in_a_later_tile) {
   EXPECT_EQ(answer.active[0].loosened->relative, 0.625);
 }
 
-/// The second tile fails by as little as the first, and is better there; the first has the best of all elsewhere.
-TEST(Query, a_price_of_equal_violations_is_that_of_the_better_setting) {
-  MemorySource source = missing({{5, 3}, {3, 3}});
+/// The second tile fails by as little as the first, and is better there; the first has the best of all elsewhere, at setting 7.
+MemorySource missing_alike(double TV2_uw) {
+  MemorySource source = missing({{5, TV2_uw}, {3, TV2_uw}});
   source.at(Measure::IAE_w, 7) = 1;
   source.at(Measure::TV2_uw, 7) = 4;
+  return source;
+}
+
+TEST(Query, a_price_of_equal_violations_is_that_of_the_better_setting) {
+  const MemorySource source = missing_alike(3);
   const Answer answer = ask(source, question("IAE_w", {"TV2_uw <= 2"}));
   ASSERT_EQ(answer.active.size(), 1u);
   EXPECT_EQ(answer.active[0].optimum.number, 7u);
@@ -319,9 +324,7 @@ TEST(Query, a_price_of_equal_violations_is_that_of_the_better_setting) {
 
 /// The same with a strict relation that both tiles miss by nothing at all.
 TEST(Query, a_price_of_nothing_is_that_of_the_better_setting) {
-  MemorySource source = missing({{5, 2}, {3, 2}});
-  source.at(Measure::IAE_w, 7) = 1;
-  source.at(Measure::TV2_uw, 7) = 4;
+  const MemorySource source = missing_alike(2);
   const Answer answer = ask(source, question("IAE_w", {"TV2_uw < 2"}));
   ASSERT_EQ(answer.active.size(), 1u);
   EXPECT_EQ(answer.active[0].loosened->found.number, kTileSettings);
