@@ -106,11 +106,4 @@ Sampled simulate_sampled(const GeneralLoop& loop, Step step, double sampling, do
   return found;
 }
 
-double sampled_iae(const Sampled& response, double target, double sampling) {
-  double sum = 0;
-  for (std::size_t k = 1; k < response.y.size(); ++k)
-    sum += 0.5 * sampling * (std::abs(target - response.y[k - 1]) + std::abs(target - response.y[k]));
-  return sum;
-}
-
 }  // namespace portrait::reference

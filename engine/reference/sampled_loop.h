@@ -22,7 +22,4 @@ namespace portrait::reference {
 Sampled simulate_sampled(const GeneralLoop& loop, Step step, double sampling, double horizon,
                          const std::optional<Noise>& noise);
 
-/// Integral of |target - y| by the trapezoidal rule over the instants, as the papers' programs take it.
-double sampled_iae(const Sampled& response, double target, double sampling);
-
 }  // namespace portrait::reference

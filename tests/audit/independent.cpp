@@ -48,9 +48,8 @@ class OpenLoop {
   std::complex<T> operator()(T omega) const {
     std::complex<T> L = std::polar(T{1}, -omega) * controller(omega);
     for (int i = 0; i < integrators_; ++i) L = {L.imag() / omega, -L.real() / omega};
-    for (int i = 0; i < lags_; ++i) L = behind_lag(L, lag_ * omega);
-    for (int i = 0; i < n_; ++i) L = behind_lag(L, tau_f_ * omega);
-    return L;
+    L = behind_lags(L, lags_, lag_ * omega);
+    return behind_lags(L, n_, tau_f_ * omega);
   }
 
  private:
@@ -64,10 +63,12 @@ class OpenLoop {
     return {real, imaginary};
   }
 
-  /// x/(1 + j T omega)
-  static std::complex<T> behind_lag(std::complex<T> x, T T_omega) {
-    const T d = 1 + T_omega * T_omega;
-    return {(x.real() + x.imag() * T_omega) / d, (x.imag() - x.real() * T_omega) / d};
+  /// x/(1 + j T omega)^count
+  static std::complex<T> behind_lags(std::complex<T> x, int count, T T_omega) {
+    const T real = 1 / (1 + T_omega * T_omega), imaginary = -T_omega * real;
+    for (int i = 0; i < count; ++i)
+      x = {x.real() * real - x.imag() * imaginary, x.real() * imaginary + x.imag() * real};
+    return x;
   }
 
   std::vector<T> gains_;
@@ -199,15 +200,20 @@ constexpr auto kSquaredComplementary = []<typename T>(std::complex<T> L) {
   return std::norm(L) / std::norm(T{1} + L);
 };
 
-/// The peak between two frequencies, f having one in between: thirds, to 1e-8 of their distance, where a peak is flat.
+/// The peak between two frequencies, f having one in between: golden sections, to 1e-8 of their distance, where a peak is flat.
 template <typename Height>
 Real peak_between(const OpenLoop<Real>& at, const Height& height, Real low, Real high) {
-  Real best = 0;
-  for (int k = 0; k < 45; ++k) {
-    const Real a = low + (high - low) / 3, b = high - (high - low) / 3;
-    const Real left = height(at(a)), right = height(at(b));
-    best = std::max({best, left, right});
-    (left < right ? low : high) = left < right ? a : b;
+  constexpr Real kGolden = 1 / std::numbers::phi_v<Real>;
+  Real left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  Real of_left = height(at(left)), of_right = height(at(right)), best = std::max(of_left, of_right);
+  for (int k = 0; k < 38; ++k) {
+    if (of_left < of_right) {
+      low = left, left = right, of_left = of_right, right = low + kGolden * (high - low);
+      best = std::max(best, of_right = height(at(right)));
+    } else {
+      high = right, right = left, of_right = of_left, left = high - kGolden * (high - low);
+      best = std::max(best, of_left = height(at(left)));
+    }
   }
   return best;
 }

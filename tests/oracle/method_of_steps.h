@@ -12,6 +12,7 @@
 /// unit      normalised, steps of size w and d together at t = 0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -48,13 +49,18 @@ class MethodOfSteps {
 
  private:
   static constexpr std::size_t kTerms = 64;
+  static constexpr std::array<Real, kTerms> kInverse = [] {
+    std::array<Real, kTerms> inverse{};
+    for (std::size_t k = 1; k < kTerms; ++k) inverse[k] = 1 / static_cast<Real>(k);
+    return inverse;
+  }();
 
   /// A state: its series on the piece at hand. Terms are made from the lowest up.
   struct State {
     PowerSeries c = PowerSeries(kTerms, 0);
     Real operator[](std::size_t j) const { return c[j]; }
     void slope(std::size_t j, Real derivative) {
-      if (j + 1 < kTerms) c[j + 1] = derivative / static_cast<Real>(j + 1);
+      if (j + 1 < kTerms) c[j + 1] = derivative * kInverse[j + 1];
     }
     void restart(Real x) { c.assign(kTerms, 0), c[0] = x; }
   };
@@ -122,13 +128,15 @@ class MethodOfSteps {
   /// K_-1/s + K_0 + ... + K_m s^m behind n lags. With x_0 = e and x_i behind i lags, tau_f x_i' = x_(i-1) - x_i, and so for
   /// every derivative: differences, of which x_n has n without a derivative of e.
   Real gains_controller(std::size_t j, Real e) {
+    const Real per_tau_f = 1 / tau_f_;
     std::vector<Real> x{e};
     for (const State& state : filter_) x.push_back(state[j]);
-    for (std::size_t i = 0; i < filter_.size(); ++i) filter_[i].slope(j, (x[i] - x[i + 1]) / tau_f_);
+    for (std::size_t i = 0; i < filter_.size(); ++i) filter_[i].slope(j, (x[i] - x[i + 1]) * per_tau_f);
     Real u = gains_[0] * integral_[j] + gains_[1] * x.back();
     integral_.slope(j, x.back());
     for (int k = 1; k <= m_; ++k) {
-      for (std::size_t i = x.size() - 1; i >= static_cast<std::size_t>(k); --i) x[i] = (x[i - 1] - x[i]) / tau_f_;
+      for (std::size_t i = x.size() - 1; i >= static_cast<std::size_t>(k); --i)
+        x[i] = (x[i - 1] - x[i]) * per_tau_f;
       u += gains_[static_cast<std::size_t>(k) + 1] * x.back();
     }
     return u;

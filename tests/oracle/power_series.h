@@ -3,7 +3,7 @@
 ///     f(start + x) = c_0 + c_1 x + c_2 x^2 + ...,   0 <= x <= length
 ///
 /// Written to judge the measures of the reference simulation: long double, no code of engine/. Sign changes are looked
-/// for on a fine raster and then bisected, so a pair closer than the raster (1/256 of a piece) is missed.
+/// for on a fine raster and then closed in on, so a pair closer than the raster (1/256 of a piece) is missed.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +23,16 @@ struct PowerPiece {
 };
 using Signal = std::vector<PowerPiece>;
 
-inline Real value(const PowerSeries& c, Real x) {
-  Real sum = 0;
-  for (std::size_t k = c.size(); k-- > 0;) sum = sum * x + c[k];
-  return sum;
+/// Even and odd terms by themselves, which do not wait for each other; not inlined, as amid other code gcc keeps sums in memory.
+[[gnu::noinline]] inline Real value(const PowerSeries& c, Real x) {
+  const Real squared = x * x;
+  std::size_t k = c.size();
+  Real even = k % 2 == 1 ? c[--k] : 0, odd = 0;
+  while (k > 0) {
+    odd = odd * squared + c[--k];
+    even = even * squared + c[--k];
+  }
+  return even + x * odd;
 }
 
 inline PowerSeries derivative(const PowerSeries& c) {
@@ -68,6 +74,30 @@ inline Real steepest(const PowerSeries& c, Real length) {
   return sum;
 }
 
+/// Where f, of different sign at both ends, is 0: false position, the value at an end that stays halved each time (Illinois), and
+/// where that is slow, at a zero of higher order, halving.
+inline Real zero_between(const PowerSeries& c, Real left, Real right, Real of_left, Real of_right) {
+  const Real fine = std::numeric_limits<Real>::epsilon() * (right - left);
+  const bool negative = of_left < 0;
+  int last = 0;
+  for (int k = 0; k < 20; ++k) {
+    const Real x = right - of_right * (right - left) / (of_right - of_left), here = value(c, x);
+    const int side = (here < 0) == negative ? -1 : 1;
+    const Real moved = side < 0 ? x - left : right - x;
+    if (side < 0)
+      left = x, of_left = here, of_right = last < 0 ? of_right / 2 : of_right;
+    else
+      right = x, of_right = here, of_left = last > 0 ? of_left / 2 : of_left;
+    if (here == 0 || moved <= fine) return x;
+    last = side;
+  }
+  for (int halving = 0; halving < 70; ++halving) {
+    const Real middle = (left + right) / 2;
+    ((value(c, middle) < 0) == negative ? left : right) = middle;
+  }
+  return left;
+}
+
 inline std::vector<Real> sign_changes(const PowerSeries& series, Real length) {
   constexpr int kRaster = 256;
   std::vector<Real> found;
@@ -78,16 +108,11 @@ inline std::vector<Real> sign_changes(const PowerSeries& series, Real length) {
   for (int i = 0; i < kRaster;) {
     const Real steps = std::abs(here) / fall;  // f has no zero so near
     const int next = steps < kRaster ? std::min(kRaster, i + std::max(1, static_cast<int>(steps))) : kRaster;
-    Real left = step * i, right = next == kRaster ? length : step * next;
-    const bool negative = here < 0;
+    const Real left = step * i, right = next == kRaster ? length : step * next;
+    const Real before = here;
     here = value(c, right);
     i = next;
-    if ((here < 0) == negative) continue;
-    for (int halving = 0; halving < 70; ++halving) {
-      const Real middle = (left + right) / 2;
-      ((value(c, middle) < 0) == negative ? left : right) = middle;
-    }
-    found.push_back(left);
+    if ((here < 0) != (before < 0)) found.push_back(zero_between(c, left, right, before, here));
   }
   return found;
 }
