@@ -46,8 +46,7 @@ Numbers table1(const PublishedTable& table) {
 }
 
 std::vector<double> gains(const RulePlant& plant, int m, double Tf, int n) {
-  return rules::magnitude_optimum(rules::filtered(areas_of(plant, static_cast<std::size_t>(2 * m + 4)), Tf, n), m)
-      .value();
+  return rules::magnitude_optimum(rules::filtered(areas_of(plant, rules::areas_for_order(m)), Tf, n), m).value();
 }
 
 Numbers table2(const PublishedTable& table) {
@@ -82,8 +81,8 @@ double noise_ratio(const RulePlant& plant, const rules::Tuned& t) {
 /// TF, gains, and what comes last in the table.
 std::vector<double> design(const RulePlant& plant, const PrintedRow& r, std::size_t columns, bool Ms_last) {
   const int m = whole(r.label, "m"), n = whole(r.label, "n");
-  const auto found = rules::magnitude_optimum_for_noise_gain(areas_of(plant, static_cast<std::size_t>(2 * m + 4)),
-                                                             m, n, number_in_label(r.label, "KHF"), kSampling)
+  const auto found = rules::magnitude_optimum_for_noise_gain(areas_of(plant, rules::areas_for_order(m)), m, n,
+                                                             number_in_label(r.label, "KHF"), kSampling)
                          .value();
   std::vector<double> values{found.Tf};
   values.insert(values.end(), found.gains.begin(), found.gains.end());

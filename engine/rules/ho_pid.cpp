@@ -12,7 +12,7 @@ constexpr std::string_view kName = "ho-pid";
 constexpr int kHighestOrder = 8;
 
 NoiseGainDesign design(const RulePlant& plant, const Choices& choices, int m, int n) {
-  const Areas areas = areas_of(plant, static_cast<std::size_t>(2 * m + 4));
+  const Areas areas = areas_of(plant, areas_for_order(m));
   constexpr const char* kSingular =
       "the controller could cancel the whole plant, and no finite gains are optimal: give a filter, or a lower --m";
   if (choices.has("KHF")) {

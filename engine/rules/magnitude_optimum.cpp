@@ -32,7 +32,7 @@ double filter_constant(double K_m, int m, int n, double K_HF, double Ts) {
 }  // namespace
 
 std::optional<std::vector<double>> magnitude_optimum(const Areas& with_filter, int m) {
-  PORTRAIT_CHECK(m >= 0 && with_filter.size() >= static_cast<std::size_t>(2 * m + 4));
+  PORTRAIT_CHECK(m >= 0 && with_filter.size() >= areas_for_order(m));
   constexpr double kSmallestPivot = 1e-13;  // of the largest: below it the gains have no digits left
   const double T = time_scale(with_filter);
   Areas scaled = with_filter;

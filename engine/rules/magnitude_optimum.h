@@ -8,14 +8,18 @@
 /// accuracy  that of the linear solver, against the condition of the areas: tests/engine/rules/ho_pid_test.cpp
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "engine/rules/areas.h"
 
 namespace portrait::rules {
 
+/// 2m + 4, A_0 to A_{2m+3}. REQUIRES: m >= 0
+constexpr std::size_t areas_for_order(int m) { return 2 * static_cast<std::size_t>(m) + 4; }
+
 /// K_-1, K_0, ..., K_m from areas with the filter in them; nothing when the system is singular: the controller could cancel
-/// the whole plant, and no finite gain is optimal. REQUIRES: 2m + 4 areas.
+/// the whole plant, and no finite gain is optimal. REQUIRES: `areas_for_order` areas.
 std::optional<std::vector<double>> magnitude_optimum(const Areas& with_filter, int m);
 
 struct NoiseGainDesign {

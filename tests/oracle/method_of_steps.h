@@ -48,7 +48,7 @@ class MethodOfSteps {
   const Signal& u() const { return u_; }
 
  private:
-  static constexpr std::size_t kTerms = 64;
+  static constexpr std::size_t kTerms = 48;  // 6^48/48! = 2e-24
   static constexpr std::array<Real, kTerms> kInverse = [] {
     std::array<Real, kTerms> inverse{};
     for (std::size_t k = 1; k < kTerms; ++k) inverse[k] = 1 / static_cast<Real>(k);
@@ -129,7 +129,8 @@ class MethodOfSteps {
   /// every derivative: differences, of which x_n has n without a derivative of e.
   Real gains_controller(std::size_t j, Real e) {
     const Real per_tau_f = 1 / tau_f_;
-    std::vector<Real> x{e};
+    std::vector<Real>& x = differences_;
+    x.assign(1, e);
     for (const State& state : filter_) x.push_back(state[j]);
     for (std::size_t i = 0; i < filter_.size(); ++i) filter_[i].slope(j, (x[i] - x[i + 1]) * per_tau_f);
     Real u = gains_[0] * integral_[j] + gains_[1] * x.back();
@@ -168,7 +169,7 @@ class MethodOfSteps {
   int n_, m_, pieces_;
   Real w_, d_;
   Real kappa_, delta_, tau_i_, tau_1_, tau_f_, b_, c_, tau_j_;
-  std::vector<Real> gains_;
+  std::vector<Real> gains_, differences_;
   State lag_, lag_slope_, integral_, output_, output_slope_;
   std::vector<State> filter_, lags_;
   Signal y_, u_;

@@ -131,6 +131,16 @@ inline PowerSeries product(const PowerSeries& f, const PowerSeries& g) {
   return p;
 }
 
+inline PowerSeries square(const PowerSeries& f) {
+  PowerSeries p(2 * f.size() - 1, 0);
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    const Real twice = 2 * f[i];
+    p[2 * i] += f[i] * f[i];
+    for (std::size_t j = i + 1; j < f.size(); ++j) p[i + j] += twice * f[j];
+  }
+  return p;
+}
+
 /// Of the error e = target - f over all pieces.
 struct ErrorIntegrals {
   Real IAE = 0, ISE = 0, ITAE = 0, ITSE = 0;
@@ -154,7 +164,7 @@ inline ErrorIntegrals error_integrals(const Signal& signal, Real target) {
   for (const PowerPiece& piece : signal) {
     PowerSeries e = piece.c;
     e[0] -= target;
-    const PowerSeries t = {piece.start, 1}, squared = product(e, e);
+    const PowerSeries t = {piece.start, 1}, squared = square(e);
     sum.IAE += integral_with_sign_of(e, e, piece.length);
     sum.ITAE += integral_with_sign_of(e, product(t, e), piece.length);
     sum.ISE += value(antiderivative(squared), piece.length);
