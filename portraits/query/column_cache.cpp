@@ -41,8 +41,12 @@ std::size_t ColumnCache::held() const {
   return columns_.size() * settings_ * sizeof(double) + (statuses_ ? settings_ * sizeof(Status) : 0);
 }
 
-void ColumnCache::make_room(std::size_t bytes) const {
-  while (!recent_.empty() && (columns_.size() * settings_ * sizeof(double)) + bytes > limit_) {
+bool ColumnCache::fit(std::size_t columns) const {
+  return settings_ * (columns * sizeof(double) + sizeof(Status)) <= limit_;
+}
+
+void ColumnCache::make_room() const {
+  while (!recent_.empty() && !fit(columns_.size() + 1)) {
     columns_.erase(recent_.back());
     recent_.pop_back();
   }
@@ -55,7 +59,7 @@ ColumnCache::Column ColumnCache::column(Measure measure) const {
     recent_.push_front(measure);
     return found->second;
   }
-  make_room(settings_ * sizeof(double));
+  make_room();
   auto values = std::make_shared<std::vector<double>>();
   source_.read(measure, 0, settings_, *values);
   recent_.push_front(measure);
@@ -73,13 +77,13 @@ ColumnCache::Statuses ColumnCache::statuses() const {
 }
 
 void ColumnCache::read(Measure measure, std::uint64_t first, std::size_t count, std::vector<double>& values) const {
-  if (fits(sizeof(double))) return copy(*column(measure), first, count, values);
+  if (fit(1)) return copy(*column(measure), first, count, values);
   const std::lock_guard lock(mutex_);
   source_.read(measure, first, count, values);
 }
 
 void ColumnCache::read_statuses(std::uint64_t first, std::size_t count, std::vector<Status>& values) const {
-  if (fits(sizeof(double))) return copy(*statuses(), first, count, values);
+  if (fit(1)) return copy(*statuses(), first, count, values);
   const std::lock_guard lock(mutex_);
   source_.read_statuses(first, count, values);
 }

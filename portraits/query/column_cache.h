@@ -1,6 +1,7 @@
 /// A portrait for many questions in a row: columns stay in memory once they were read, the least used ones leave first.
 ///
-/// memory    at most `limit` bytes of columns; a column that is larger than that is read from the file each time
+/// memory    at most `limit` bytes of columns, that of the statuses among them, for which there is always room; where they and
+///           one measure do not fit, all is read from the file each time
 /// threads   any number at a time
 /// accuracy  the same bits as the source: tests/portraits/query/planes_test.cpp
 #pragma once
@@ -41,8 +42,10 @@ class ColumnCache final : public ColumnSource {
 
   Column column(Measure measure) const;
   Statuses statuses() const;
-  void make_room(std::size_t bytes) const;
-  bool fits(std::size_t size_of_one) const { return settings_ * size_of_one <= limit_; }
+  /// Whether so many measures and the statuses stay within the limit.
+  bool fit(std::size_t columns) const;
+  /// For one more.
+  void make_room() const;
 
   const ColumnSource& source_;
   const std::size_t limit_;

@@ -76,6 +76,13 @@ TEST(Cover, says_when_it_decides_nothing) {
   EXPECT_LE(found.points, 2 * kMostPoints);
 }
 
+TEST(Cover, of_one_direction_is_halved_as_far_as_points_differ) {
+  const Cover found = cover(problem(
+      {0}, [](const BoxPoint& p) { return std::sin(1e7 * p[0]); }, 1));
+  EXPECT_EQ(found.outcome, Outcome::open);
+  EXPECT_LE(found.points, 5000u);  // 4097 and the climb
+}
+
 TEST(Cover, stops_at_the_first_value_beyond) {
   const auto f = [](const BoxPoint& p) { return p[0] == 0 && p[1] == 0 ? kInf : 0.0; };
   const Cover found = cover(problem({0, 1}, f, 1));

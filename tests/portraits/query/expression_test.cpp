@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -120,6 +121,13 @@ TEST(Expression, knows_every_measure_and_parameter) {
     EXPECT_EQ(to_string(*quantity), name);
   }
   EXPECT_EQ(quantity_names().size(), kQuantityCount);
+}
+
+TEST(Expression, every_quantity_has_a_column_of_its_own) {
+  std::set<std::size_t> places;
+  for (const std::string_view name : quantity_names()) places.insert(position(quantity_named(name).value()));
+  EXPECT_EQ(places.size(), kQuantityCount);
+  EXPECT_EQ(*places.rbegin(), kQuantityCount - 1);
 }
 
 TEST(Expression, says_what_it_is) {

@@ -397,6 +397,9 @@ TEST(TradeOff, reads_only_tiles_that_may_hold_the_best_within_a_bound) {
   EXPECT_EQ(points[2].best->number, 3 * kTileSettings);
   EXPECT_EQ(source.values_read(),
             2 * 2 * kTileSettings + 2 * 3);  // the first and fourth tile, and what the answer takes
+  // The same without a bound that none meets.
+  EXPECT_EQ(trade_off(source, question, expression("TV2_uw"), {1, 3})[0].best->number, 0u);
+  EXPECT_EQ(source.values_read(), 2 * (2 * 2 * kTileSettings + 2 * 3));
 }
 
 /// The constraints in another order, one of them twice.

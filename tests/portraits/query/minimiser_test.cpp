@@ -1,6 +1,7 @@
 /// Problems whose answer is known.
 #include "portraits/query/minimiser.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -84,6 +85,30 @@ TEST(Minimiser, keeps_away_from_where_nothing_exists) {
       },
       {-3}));
   EXPECT_NEAR(found.point[0], 1.9, 1e-5);
+}
+
+TEST(Minimiser, goes_to_a_least_value_of_0) {
+  const Minimum found = minimise(problem(
+      [](const Point& x) {
+        return Probe{100 * square(x[1] - x[0] * x[0]) + square(1 - x[0]), {}};
+      },
+      {-1.2, 1}));
+  EXPECT_NEAR(found.point[0], 1, 5e-5);
+  EXPECT_NEAR(found.point[1], 1, 1e-4);
+}
+
+/// A valley at 0 with two deeper ones a step away, of which the deepest is the answer on either side.
+TEST(Minimiser, goes_on_from_the_best_of_what_lies_around) {
+  for (const double side : {-1.0, 1.0}) {
+    const Minimum found = minimise(problem(
+        [side](const Point& x) {
+          return Probe{
+              10 + std::min({square(x[0]), square(side * x[0] - 1.2) - 0.5, square(side * x[0] + 1.2) - 0.1}), {}};
+        },
+        {0.0002}));
+    EXPECT_NEAR(found.point[0], 1.2 * side, 1e-5);
+    EXPECT_NEAR(found.probe.objective, 9.5, 1e-9);
+  }
 }
 
 }  // namespace

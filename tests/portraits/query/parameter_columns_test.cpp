@@ -1,5 +1,7 @@
 #include "portraits/query/parameter_columns.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace portrait {
@@ -49,6 +51,28 @@ TEST(ParameterColumns, of_a_single_setting_are_its_parameters) {
   std::vector<double> values;
   ParameterColumns(grid).read(Parameter::tau_d, 0, 1, values);
   EXPECT_EQ(values, std::vector<double>{2.5});
+}
+
+/// Of an axis exactly; what is computed lies between the ends of both factors.
+TEST(ParameterColumns, bounds_are_those_of_their_values) {
+  for (const auto& [grid, computed] :
+       {std::pair{&kWithDelta, Parameter::tau_d}, std::pair{&kWithTauD, Parameter::delta}}) {
+    const ParameterColumns columns(*grid);
+    for (const Parameter parameter : parameters_of(grid->family))
+      for (std::uint64_t first = 0; first < setting_count(*grid); ++first)
+        for (std::size_t count = 1; count <= setting_count(*grid) - first; ++count) {
+          std::vector<double> values;
+          columns.read(parameter, first, count, values);
+          const auto [low, high] = std::minmax_element(values.begin(), values.end());
+          const Interval bound = columns.bound(parameter, first, count);
+          ASSERT_FALSE(bound.may_be_nan);
+          ASSERT_LE(bound.low, *low);
+          ASSERT_GE(bound.high, *high);
+          if (parameter == computed && count > 1) continue;
+          ASSERT_DOUBLE_EQ(bound.low, *low) << to_string(parameter) << " " << first << ", " << count;
+          ASSERT_DOUBLE_EQ(bound.high, *high) << to_string(parameter) << " " << first << ", " << count;
+        }
+  }
 }
 
 }  // namespace

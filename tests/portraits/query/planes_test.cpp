@@ -240,22 +240,45 @@ TEST(ColumnCache, GivesTheSameNumbersAndReadsEachColumnOnce) {
   EXPECT_EQ(source.values_read(), 3U * 3 * 3 + 3 * 60);  // ours, and each column whole once
 }
 
-TEST(ColumnCache, StaysWithinItsLimit) {
+TEST(ColumnCache, AnswersAsItsSourceAgainAndAgain) {
+  const MemorySource source = portrait_of(7);
+  const ColumnCache cache(source, 1 << 20);
+  const Question asked = question();
+  const Answer expected = ask(source, asked);
+  ASSERT_GT(expected.top.size(), 3U);
+  for (int round = 0; round < 2; ++round) {
+    const Answer answer = ask(cache, asked);
+    ASSERT_EQ(answer.top.size(), expected.top.size());
+    for (std::size_t i = 0; i < answer.top.size(); ++i) EXPECT_EQ(answer.top[i].number, expected.top[i].number);
+  }
+}
+
+TEST(ColumnCache, HoldsAsMuchAsItsLimitTakes) {
   const MemorySource source = portrait_of(5);
-  const ColumnCache two(source, 2 * 60 * sizeof(double)), none(source, 100);
-  std::vector<double> values;
-  for (int round = 0; round < 4; ++round)
-    for (const Measure m : source.grid().measures) {
-      two.read(m, 0, 60, values);
-      none.read(m, 3, 2, values);
-      EXPECT_LE(two.held(), 2 * 60 * sizeof(double));
-      EXPECT_EQ(none.held(), 0U);
-    }
+  constexpr std::size_t kColumn = 60 * sizeof(double), kStatuses = 60 * sizeof(Status);
+  for (const auto& [limit, columns] : {std::pair<std::size_t, std::size_t>{kColumn + kStatuses - 1, 0},
+                                       {kColumn + kStatuses, 1},
+                                       {2 * kColumn + kStatuses - 1, 1},
+                                       {2 * kColumn + kStatuses, 2},
+                                       {3 * kColumn + kStatuses, 3}}) {
+    const ColumnCache cache(source, limit);
+    std::vector<double> values;
+    std::vector<Status> statuses;
+    for (int round = 0; round < 4; ++round)
+      for (std::size_t k = 0; k < 3; ++k) {
+        cache.read(source.grid().measures[k], 3, 2, values);
+        EXPECT_EQ(values.size(), 2U);
+        EXPECT_EQ(cache.held(),
+                  std::min(round == 0 ? k + 1 : 3, columns) * kColumn + (round > 0 && columns > 0 ? kStatuses : 0));
+        if (k == 2) cache.read_statuses(3, 2, statuses);
+        EXPECT_LE(cache.held(), limit);
+      }
+  }
 }
 
 TEST(ColumnCache, ManyThreadsReadTheSame) {
   const MemorySource source = portrait_of(6);
-  const ColumnCache cache(source, 2 * 60 * sizeof(double));
+  const ColumnCache cache(source, 60 * (2 * sizeof(double) + sizeof(Status)));
   std::atomic<int> wrong = 0;
   std::vector<std::thread> threads;
   for (int k = 0; k < 4; ++k)

@@ -24,6 +24,27 @@ TEST(PlantBox, has_corners_and_middles_in_what_varies) {
   EXPECT_EQ(box.at({0, 0, 0}).K, 2);
 }
 
+TEST(PlantBox, has_plants_from_end_to_end) {
+  const PlantBox box{{Plant::fotd, 2, 0.5, 1}, {0.3, 0.9}, {0.4, 0.6}, {0.7, 2.9}};
+  EXPECT_NEAR(box.at({0.25, 0, 0}).K, 0.45, 1e-15);
+  EXPECT_NEAR(box.at({0, 0.5, 0}).Td, 0.5, 1e-15);
+  EXPECT_EQ(box.at({1, 1, 1}).K, 0.9);  // which 0.3 + (0.9 - 0.3) is not
+  EXPECT_EQ(box.at({1, 1, 1}).T1, 2.9);
+}
+
+TEST(PlantBox, middles_are_those_of_equal_cells) {
+  PlantBox box = dipdt_box();
+  EXPECT_EQ(box.middles(4),
+            (std::vector<BoxPoint>{{0.25, 0.25, 0}, {0.25, 0.75, 0}, {0.75, 0.25, 0}, {0.75, 0.75, 0}}));
+  box.Td = {0.5, 0.5};
+  EXPECT_EQ(box.middles(2), (std::vector<BoxPoint>{{0.25, 0, 0}, {0.75, 0, 0}}));
+  box = dipdt_box();
+  box.K = {2, 2};
+  EXPECT_EQ(box.middles(2), (std::vector<BoxPoint>{{0, 0.25, 0}, {0, 0.75, 0}}));
+  box.Td = {0.5, 0.5};
+  EXPECT_EQ(box.middles(1000), (std::vector<BoxPoint>{{0, 0, 0}}));
+}
+
 std::string why(const PlantBox& box) { return why_invalid(box).value_or("valid"); }
 
 TEST(PlantBox, says_why_it_cannot_be) {

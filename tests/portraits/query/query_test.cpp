@@ -138,6 +138,15 @@ TEST(Query, a_strict_relation_may_be_missed_by_nothing) {
   EXPECT_EQ(answer.near_miss->violations[0].relative, 0);
 }
 
+TEST(Query, a_near_miss_may_be_infinitely_far) {
+  const Answer answer =
+      ask(five({kNaN, 2, 3, 4, 5}, std::vector<double>(5, kInf)), question("IAE_w", {"TV2_uw <= 4"}));
+  ASSERT_TRUE(answer.near_miss);
+  EXPECT_EQ(answer.near_miss->found.number, 1u);
+  ASSERT_EQ(answer.near_miss->violations.size(), 1u);
+  EXPECT_EQ(answer.near_miss->violations[0].relative, kInf);
+}
+
 TEST(Query, no_near_miss_without_numbers) {
   const Answer nan = ask(five({1, 2, 3, 4, 5}, std::vector<double>(5, kNaN)), question("IAE_w", {"TV2_uw <= 4"}));
   EXPECT_FALSE(nan.near_miss);
@@ -366,6 +375,7 @@ TEST(Query, refuses_a_question_that_does_not_fit) {
   const auto problem = [&](const Question& asked) { return error_text([&] { ask(source, asked); }); };
   EXPECT_EQ(problem(question("IAE_w", {}, 0)), "top must be 1 .. 100000 (it is 0)");
   EXPECT_EQ(problem(question("IAE_w", {}, 100'001)), "top must be 1 .. 100000 (it is 100001)");
+  EXPECT_EQ(problem(question("IAE_w", {}, 100'000)), "no InputError");
   EXPECT_EQ(problem(question("Ms")),
             "--minimize:1:1: measure \"Ms\" is not stored in this portrait (stored: IAE_w, IAE_d, TV2_uw)\n  "
             "Ms\n  ^");

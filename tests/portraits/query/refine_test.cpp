@@ -117,5 +117,54 @@ TEST(Refine, warns_of_edges) {
   EXPECT_EQ(refined.at_edge, std::vector{Parameter::tau_i});
 }
 
+/// PI on an integrator, or PID where tau_d is given.
+Grid one_axis(Axis axis, std::vector<FixedParameter> fixed) {
+  Grid grid = dalen();
+  grid.axes = {std::move(axis)};
+  grid.fixed = std::move(fixed);
+  return grid;
+}
+
+TEST(Refine, an_axis_that_ends_at_inf_ends_at_its_last_number) {
+  const Grid grid =
+      one_axis(Axis::list(Parameter::tau_i, {4, 8, 20, kInf}), {{Parameter::kappa, 0.3}, {Parameter::delta, 0}});
+  const Refined far = refine(grid, expression("-tau_i"), {}, {.kappa = 0.3, .tau_i = 8});
+  EXPECT_EQ(far.best.setting.tau_i, 20);
+  EXPECT_EQ(far.at_edge, std::vector{Parameter::tau_i});
+  const Refined stays = refine(grid, expression("-tau_i"), {}, {.kappa = 0.3, .tau_i = kInf});
+  EXPECT_EQ(stays.best.setting.tau_i, kInf);
+  EXPECT_TRUE(stays.moved.empty());
+  EXPECT_TRUE(stays.converged);
+}
+
+TEST(Refine, an_axis_tau_d_goes_from_end_to_end) {
+  const Grid grid =
+      one_axis(Axis::linear(Parameter::tau_d, 0.1, 0.5, 5), {{Parameter::kappa, 0.4}, {Parameter::tau_i, 8}});
+  Setting from{.kappa = 0.4, .tau_i = 8};
+  set(from, Parameter::tau_d, 0.4);
+  for (const auto& [objective, end] : {std::pair{"tau_d", 0.1}, {"-tau_d", 0.5}}) {
+    const Refined refined = refine(grid, expression(objective), {}, from);
+    EXPECT_NEAR(tau_d(refined.best.setting), end, 1e-9);
+    EXPECT_EQ(refined.at_edge, std::vector{Parameter::tau_d});
+  }
+}
+
+TEST(Refine, a_given_tau_d_stays_when_kappa_moves) {
+  const Grid grid =
+      one_axis(Axis::linear(Parameter::kappa, 0.2, 0.6, 5), {{Parameter::tau_d, 0.25}, {Parameter::tau_i, 8}});
+  Setting from{.kappa = 0.4, .tau_i = 8};
+  set(from, Parameter::tau_d, 0.25);
+  const Refined refined = refine(grid, expression("kappa"), {}, from);
+  EXPECT_NEAR(refined.best.setting.kappa, 0.2, 1e-9);
+  EXPECT_DOUBLE_EQ(tau_d(refined.best.setting), 0.25);
+}
+
+TEST(Refine, begins_on_a_bound) {
+  const Refined refined = refine(dalen(), expression("IAE_d"), conditions({"kappa <= 0.35", "tau_i >= 8"}),
+                                 {.kappa = 0.35, .tau_i = 8});
+  EXPECT_EQ(refined.best.setting.kappa, 0.35);
+  EXPECT_EQ(refined.best.setting.tau_i, 8);
+}
+
 }  // namespace
 }  // namespace portrait
