@@ -49,6 +49,18 @@ TEST(Minimiser, on_a_curved_limit) {
   EXPECT_TRUE(found.converged);
 }
 
+/// From a start whose first step of the model does not lead there.
+TEST(Minimiser, is_led_back_to_a_limit_that_curves_away) {
+  const Minimum found = minimise(problem(
+      [](const Point& x) {
+        return Probe{x[0] + 2 * x[1] + 5, {square(x[0] - 0.5) + square(x[1] + 0.3) - 9}};
+      },
+      {1, 1}));
+  EXPECT_NEAR(found.point[0], 0.5 - 3 / std::sqrt(5), 1e-6);
+  EXPECT_NEAR(found.point[1], -0.3 - 6 / std::sqrt(5), 1e-6);
+  EXPECT_NEAR(found.prices[0], std::sqrt(5) / 6, 1e-5);
+}
+
 TEST(Minimiser, in_a_corner_of_two_limits_and_at_a_bound) {
   const auto one = [](const Point& x) {
     return Probe{square(x[0] - 3) + square(x[1] - 3) + square(x[2] + 20),

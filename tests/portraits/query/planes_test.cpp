@@ -212,6 +212,19 @@ TEST(Cloud, KeepsEveryKthOfMoreSettingsThanItShows) {
   }
 }
 
+TEST(Cloud, ReadsNoTileWithoutEligibleSettings) {
+  Grid grid;
+  grid.family = {Plant::ipdt, 0, Prefilter::none};
+  grid.measures = {Measure::IAE_w};
+  grid.axes = {Axis::linear(Parameter::kappa, 0.1, 1, 2 * kTileSettings)};
+  grid.fixed = {{Parameter::tau_i, 8}, {Parameter::delta, 0}};
+  MemorySource source(grid);
+  for (std::uint64_t n = 0; n < kTileSettings; ++n) source.status(n) = Status::unstable;
+  const Cloud found = cloud(source, parse_expression({"", "IAE_w"}), parse_expression({"", "kappa"}), {});
+  EXPECT_EQ(found.admissible, kTileSettings);
+  EXPECT_EQ(source.values_read(), kTileSettings);
+}
+
 TEST(Cloud, AnExpressionAtASettingIsThatOfItsNumbers) {
   MeasureRow row;
   row[Measure::IAE_w] = 5;

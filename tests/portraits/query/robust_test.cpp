@@ -172,6 +172,61 @@ TEST(Robust, says_what_is_nearest_when_no_setting_serves_all) {
   EXPECT_GT(answer.broken_by[0], 0u);
   EXPECT_GT(answer.nearest->share, 0);
   EXPECT_EQ(answer.broken_by[0] + answer.not_settled + answer.open, answer.examined);
+  EXPECT_EQ(answer.loops, 4 * answer.examined) << "the corners were enough";
+}
+
+/// P or PI on an integrator of which the gain is uncertain.
+Grid ipdt_pi(std::vector<Axis> axes) {
+  Grid grid;
+  grid.family = {Plant::ipdt, 0, Prefilter::none};
+  grid.horizon = Horizon::fixed(100);
+  grid.measures = {Measure::IAE_w, Measure::DC_yw};
+  grid.axes = std::move(axes);
+  grid.fixed = {{Parameter::delta, 0}};
+  return grid;
+}
+PlantBox of_gains(double low, double high) { return {{Plant::ipdt, 1, 1, 0}, {low, high}, {1, 1}, {0, 0}}; }
+
+/// Far from the order of the worst plants: what is best on the nominal one oscillates on others.
+TEST(Robust, the_nominal_best_is_the_answer_where_it_serves_all) {
+  const MemorySource source =
+      swept(ipdt_pi({Axis::linear(Parameter::kappa, 0.1, 0.9, 33), Axis::list(Parameter::tau_i, {kInf})}));
+  RobustQuestion question = robust_question("IAE_w", {}, of_gains(0.9, 1.6), Over::nominal);
+  question.conditions.include_not_settled = true;
+  const RobustAnswer answer = ask_robust(source, question);
+  ASSERT_EQ(answer.top.size(), 1u);
+  const Question plain{.minimize = question.minimize, .conditions = question.conditions};
+  EXPECT_EQ(answer.top[0].nominal.number, ask(source, plain).top[0].number);
+  EXPECT_EQ(answer.top[0].over_box.outcome, Outcome::within);
+  EXPECT_GT(answer.top[0].over_box.objective.left, 1.2 * answer.top[0].nominal.objective);
+}
+
+/// A measure that jumps from 1 to 2, at most 2: no bound that allows for a jump is 2.
+TEST(Robust, a_jump_up_to_the_limit_is_left_open) {
+  const MemorySource source =
+      swept(ipdt_pi({Axis::list(Parameter::kappa, {0.5}), Axis::list(Parameter::tau_i, {8})}));
+  const RobustAnswer answer = ask_robust(source, robust_question("IAE_w", {"DC_yw <= 2"}, of_gains(0.5, 1.5)));
+  EXPECT_TRUE(answer.top.empty());
+  EXPECT_EQ(answer.examined, 1u);
+  EXPECT_EQ(answer.broken_by[0] + answer.not_settled, 0u);
+  EXPECT_EQ(answer.open, 1u);
+  ASSERT_TRUE(answer.nearest);
+  EXPECT_EQ(answer.nearest->outcome, Outcome::open);
+  EXPECT_EQ(answer.nearest->constraints[0].left, 2);
+}
+
+/// More than are selected at first, and than a whole number of waves.
+TEST(Robust, every_setting_is_examined_when_none_serves) {
+  const MemorySource source =
+      swept(ipdt_pi({Axis::linear(Parameter::kappa, 0.2, 0.5, 75), Axis::linear(Parameter::tau_i, 5, 12, 70)}));
+  RobustQuestion question = robust_question("IAE_w", {}, of_gains(0.5, 30));
+  question.top = 5000;
+  question.conditions.include_not_settled = true;
+  const RobustAnswer answer = ask_robust(source, question);
+  EXPECT_TRUE(answer.top.empty());
+  EXPECT_EQ(answer.admissible, 5250u);
+  EXPECT_EQ(answer.examined, 5250u);
+  EXPECT_EQ(answer.not_settled, 5250u);
 }
 
 TEST(Robust, names_of_axes_choose_the_nominal_setting) {
