@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include "engine/loop/parameters.h"
 #include "engine/loop/sensitivity.h"
 #include "engine/measures/step_measures.h"
+#include "engine/measures/variation.h"
 #include "tests/oracle/random_loops.h"
 
 namespace portrait::reference {
@@ -130,6 +132,25 @@ TEST(MeasureShapes, AreNeverNegativeAndFallWithM) {
   }
 }
 
+/// Of y, 500 samples a dead time: small ones as well as those that rest at 1.
+TEST(MeasureShapes, AlternateAsTheirSamplesDo) {
+  oracle::Random random(73);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Loop loop = oracle::random_stable_loop(random);
+    SCOPED_TRACE(simulate_command(loop));
+    const Response r = simulate(loop, Horizon::fixed(25));
+    const MeasureRow row = measure(loop, r).measures;
+    for (const auto& [step, name] : {std::pair{kSetpoint, DC_yw}, std::pair{kDisturbance, DC_yd}}) {
+      const double rest = r.steps[step].at_rest.y;
+      std::vector<double> x = {0};
+      for (int i = 0; i <= 25 * 500; ++i) x.push_back(y_at(r.steps[step], i / 500.0));
+      double deviation = 0;
+      for (const double value : x) deviation = std::max(deviation, std::abs(value - rest));
+      EXPECT_EQ(row[name], alternating_extremes(x, rest, kSettlingBand * deviation)) << to_string(name);
+    }
+  }
+}
+
 TEST(SteadyStates, WithIntegralAction) {
   for (const Plant plant : {Plant::dipdt, Plant::ipdt}) {
     const Loop loop{{plant, 0, Prefilter::pi}, {.kappa = 0.2, .tau_i = 8, .delta = 0.5}};
@@ -242,6 +263,43 @@ TEST(MeasureStatus, SettledIsWithinTheBandOverTheWholeLastDeadTime) {
     }
     EXPECT_EQ(last, Status::settled);
     EXPECT_GE(changes, 1);
+  }
+}
+
+/// Deviation from rest over the last tenth before T, relative to the largest before T.
+double deviation_in_last_tenth(const Response& r, double T) {
+  double worst = 0;
+  for (const StepResponse& step : std::span(r.steps).first(2))
+    for (const bool of_y : {true, false}) {
+      const Signal signal = of_y ? y_at : u_at;
+      const double rest = of_y ? step.at_rest.y : step.at_rest.u;
+      double all = std::abs(rest), last = 0;
+      for (int i = 0; i <= 4000; ++i) {
+        const double off = std::abs(signal(step, i * T / 4000) - rest);
+        all = std::max(all, off);
+        if (i >= 3600) last = std::max(last, off);
+      }
+      worst = std::max(worst, last / all);
+    }
+  return worst;
+}
+
+/// P control of 1/(s + 1), which decays, and of 1/(s (s + 1)), which swings.
+TEST(MeasureStatus, WithoutDeadTimeIsThatOfTheLastTenth) {
+  const std::vector<std::pair<Polynomial, double>> loops = {{{1, 1}, 1}, {{0, 1, 1}, 4}};
+  for (const auto& [denominator, gain] : loops) {
+    const GeneralLoop loop{{transfer_function({1}, denominator), 0}, controller(transfer_function({gain}, {1}))};
+    int settled = 0, not_settled = 0;
+    for (double T = 1; T <= 16; T += 0.25) {
+      const double deviation = deviation_in_last_tenth(simulate(loop, Horizon::fixed(T)), T);
+      if (std::abs(deviation - kSettlingBand) < 0.02 * kSettlingBand) continue;
+      const bool wanted = deviation <= kSettlingBand;
+      ++(wanted ? settled : not_settled);
+      EXPECT_EQ(measure(loop, Horizon::fixed(T)).status, wanted ? Status::settled : Status::not_settled)
+          << gain << ", " << T << ": " << deviation;
+    }
+    EXPECT_GT(settled, 10);
+    EXPECT_GT(not_settled, 4);
   }
 }
 
