@@ -14,7 +14,9 @@ command -v chromium >/dev/null || page_packages+=(chromium)
 test_packages=(
   libgtest-dev librapidcheck-dev           # unit and property tests
   libbenchmark-dev                         # benchmarks, each of which a test runs once
+  doxygen                                  # the API documentation without warnings
   python3 python3-xarray python3-netcdf4 python3-h5netcdf python3-h5py netcdf-bin  # portraits read by others
+  python3-matplotlib octave octave-netcdf  # and examples/
   munge slurmctld slurmd slurm-client openmpi-bin  # a cluster of one machine
   zsh                                      # its completion
   dpkg-dev file                            # the Debian package that cpack makes
