@@ -106,7 +106,7 @@ std::string csv_text(const Grid& grid, const std::vector<Found>& rows) {
   for (const Found& found : rows) {
     for (const Parameter p : parameters_of(grid.family)) text += number_text(get(found.setting, p)) + ",";
     text += fmt::format("{},{}", number_text(found.objective), to_string(found.status));
-    for (const Measure m : grid.measures) text += "," + number_text(found.measures[m]);
+    for (const Measure m : grid.measures) text += fmt::format(",{}", number_text(found.measures[m]));
     text += "\n";
   }
   return text;
