@@ -8,7 +8,6 @@
 namespace portrait::reproduce {
 namespace {
 
-using rules::IntegratingPlant;
 using rules::LagDelayPlant;
 using rules::PiLoop;
 using rules::RulePlant;

@@ -177,7 +177,10 @@ struct AlongDelta {
  private:
   static constexpr LoopFamily kFamily{Plant::ipdt, 0, Prefilter::none};
   static double delta(int d) { return 1.1 + 0.1 * d; }
-  const MeasureRow& at(int d, int c) const { return found[static_cast<std::size_t>(d * kCbars + c)].measures; }
+  const MeasureRow& at(int d, int c) const {
+    const int number = d * kCbars + c;
+    return found[static_cast<std::size_t>(number)].measures;
+  }
 };
 
 Numbers table1(const PublishedTable& table) {
