@@ -174,8 +174,7 @@ bool in_plane(const Grid& grid, std::uint64_t number, Parameter x, Parameter y,
 
 void add_stability(pictures::Map& map, const Grid& grid, Parameter x, Parameter y,
                    const std::vector<std::uint64_t>& held) {
-  std::vector<std::uint64_t> origin = held;
-  const pictures::Plane plane{{grid.family, setting_at(grid, origin)}, x, y};
+  const pictures::Plane plane{{grid.family, setting_at(grid, held)}, x, y};
   constexpr std::size_t kNodes = 161;
   const auto nodes = [&](const std::vector<double>& values, bool log) {
     return pictures::spread(values.front(), values.back(), kNodes, log);
