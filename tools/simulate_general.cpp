@@ -22,7 +22,6 @@ namespace portrait::tools {
 namespace {
 
 using reference::Measured;
-using reference::Step;
 
 Sizes sizes_of(const SimulateArguments& a) {
   const std::vector<double> found = named_numbers_argument("--step", a.step, {"w", "d", "o"}, 1);
