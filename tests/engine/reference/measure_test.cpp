@@ -231,17 +231,18 @@ TEST(MeasureRowOf, TheNoiseGainNeedsASamplingTime) {
             portrait::noise_gain(loop, 0.1));
 }
 
-/// Deviation from rest over the last dead time before T, relative to the largest before T.
-double last_deviation(const Response& r, double T) {
+/// Deviation from rest over the last `length` before T, relative to the largest before T.
+double last_deviation(const Response& r, double T, double length) {
   double worst = 0;
   for (const StepResponse& step : std::span(r.steps).first(2))
     for (const bool of_y : {true, false}) {
       const Signal signal = of_y ? y_at : u_at;
       const double rest = of_y ? step.at_rest.y : step.at_rest.u;
       double all = std::abs(rest), last = 0;
-      for (int i = 0; i <= 200 * static_cast<int>(T); ++i)
+      for (int i = 0; i <= static_cast<int>(200 * T); ++i)
         all = std::max(all, std::abs(signal(step, i / 200.0) - rest));
-      for (int i = 0; i < 2000; ++i) last = std::max(last, std::abs(signal(step, T - 1 + i / 2000.0) - rest));
+      for (int i = 0; i < 2000; ++i)
+        last = std::max(last, std::abs(signal(step, T - length + length * i / 2000) - rest));
       worst = std::max(worst, last / all);
     }
   return worst;
@@ -254,7 +255,7 @@ TEST(MeasureStatus, SettledIsWithinTheBandOverTheWholeLastDeadTime) {
     int changes = 0;
     Status last = Status::not_settled;
     for (int T = 2; T <= 60; T += 2) {
-      const double deviation = last_deviation(r, T);
+      const double deviation = last_deviation(r, T, 1);
       if (std::abs(deviation - kSettlingBand) < 1e-4) continue;
       const Status status = measure(loop, Horizon::fixed(T)).status;
       EXPECT_EQ(status, deviation <= kSettlingBand ? Status::settled : Status::not_settled) << T;
@@ -266,24 +267,6 @@ TEST(MeasureStatus, SettledIsWithinTheBandOverTheWholeLastDeadTime) {
   }
 }
 
-/// Deviation from rest over the last tenth before T, relative to the largest before T.
-double deviation_in_last_tenth(const Response& r, double T) {
-  double worst = 0;
-  for (const StepResponse& step : std::span(r.steps).first(2))
-    for (const bool of_y : {true, false}) {
-      const Signal signal = of_y ? y_at : u_at;
-      const double rest = of_y ? step.at_rest.y : step.at_rest.u;
-      double all = std::abs(rest), last = 0;
-      for (int i = 0; i <= 4000; ++i) {
-        const double off = std::abs(signal(step, i * T / 4000) - rest);
-        all = std::max(all, off);
-        if (i >= 3600) last = std::max(last, off);
-      }
-      worst = std::max(worst, last / all);
-    }
-  return worst;
-}
-
 /// P control of 1/(s + 1), which decays, and of 1/(s (s + 1)), which swings.
 TEST(MeasureStatus, WithoutDeadTimeIsThatOfTheLastTenth) {
   const std::vector<std::pair<Polynomial, double>> loops = {{{1, 1}, 1}, {{0, 1, 1}, 4}};
@@ -291,7 +274,7 @@ TEST(MeasureStatus, WithoutDeadTimeIsThatOfTheLastTenth) {
     const GeneralLoop loop{{transfer_function({1}, denominator), 0}, controller(transfer_function({gain}, {1}))};
     int settled = 0, not_settled = 0;
     for (double T = 1; T <= 16; T += 0.25) {
-      const double deviation = deviation_in_last_tenth(simulate(loop, Horizon::fixed(T)), T);
+      const double deviation = last_deviation(simulate(loop, Horizon::fixed(T)), T, 0.1 * T);
       if (std::abs(deviation - kSettlingBand) < 0.02 * kSettlingBand) continue;
       const bool wanted = deviation <= kSettlingBand;
       ++(wanted ? settled : not_settled);
