@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -177,22 +176,12 @@ std::vector<Sample> walk(const Loop& loop, int fineness) {
   return samples;
 }
 
-/// Where f, of different sign at both ends, is 0: false position, the value at an end that stays halved each time (Illinois). Where
-/// only double saw the signs differ, one end is as good as the zero.
+/// Where f, of different sign at both ends, is 0. Where only double saw the signs differ, one end is as good as the zero.
 template <typename Function>
 Real zero_between(const Function& f, Real low, Real high) {
-  Real at_low = f(low), at_high = f(high), x = std::abs(at_low) < std::abs(at_high) ? low : high;
-  for (int i = 0; i < 70 && at_low * at_high < 0; ++i) {
-    x = high - at_high * (high - low) / (at_high - at_low);
-    const Real here = f(x);
-    if (std::abs(high - x) <= 2 * std::numeric_limits<Real>::epsilon() * x) break;
-    if (here * at_high < 0)
-      low = high, at_low = at_high;
-    else
-      at_low /= 2;
-    high = x, at_high = here;
-  }
-  return x;
+  const Real at_low = f(low), at_high = f(high);
+  if (at_low * at_high < 0) return oracle::zero_between(f, low, high, at_low, at_high);
+  return std::abs(at_low) < std::abs(at_high) ? low : high;
 }
 
 constexpr auto kSquaredSensitivity = []<typename T>(std::complex<T> L) { return 1 / std::norm(T{1} + L); };

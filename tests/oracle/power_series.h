@@ -76,12 +76,13 @@ inline Real steepest(const PowerSeries& c, Real length) {
 
 /// Where f, of different sign at both ends, is 0: false position, the value at an end that stays halved each time (Illinois), and
 /// where that is slow, at a zero of higher order, halving.
-inline Real zero_between(const PowerSeries& c, Real left, Real right, Real of_left, Real of_right) {
-  const Real fine = std::numeric_limits<Real>::epsilon() * (right - left);
+template <typename Function>
+Real zero_between(const Function& f, Real left, Real right, Real of_left, Real of_right) {
+  const Real fine = std::numeric_limits<Real>::epsilon() * std::max(right - left, std::abs(left));
   const bool negative = of_left < 0;
   int last = 0;
   for (int k = 0; k < 20; ++k) {
-    const Real x = right - of_right * (right - left) / (of_right - of_left), here = value(c, x);
+    const Real x = right - of_right * (right - left) / (of_right - of_left), here = f(x);
     const int side = (here < 0) == negative ? -1 : 1;
     const Real moved = side < 0 ? x - left : right - x;
     if (side < 0)
@@ -93,7 +94,7 @@ inline Real zero_between(const PowerSeries& c, Real left, Real right, Real of_le
   }
   for (int halving = 0; halving < 70; ++halving) {
     const Real middle = (left + right) / 2;
-    ((value(c, middle) < 0) == negative ? left : right) = middle;
+    ((f(middle) < 0) == negative ? left : right) = middle;
   }
   return left;
 }
@@ -112,7 +113,8 @@ inline std::vector<Real> sign_changes(const PowerSeries& series, Real length) {
     const Real before = here;
     here = value(c, right);
     i = next;
-    if ((here < 0) != (before < 0)) found.push_back(zero_between(c, left, right, before, here));
+    if ((here < 0) != (before < 0))
+      found.push_back(zero_between([&](Real x) { return value(c, x); }, left, right, before, here));
   }
   return found;
 }
